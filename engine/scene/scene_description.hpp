@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// A scene as loaders and generators deliver it: plain CPU data shared by the engine's demos, the reference
+/// ray tracer and the measurements.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "scene/bounds.hpp"
+#include "scene/camera.hpp"
+#include "scene/light.hpp"
+#include "scene/mesh.hpp"
+
+namespace halfshadow::scene {
+
+/// 8-bit sRGB image, rows from top to bottom, `channels` (3 or 4) interleaved.
+struct Image {
+  int width = 0, height = 0, channels = 4;
+  std::vector<std::uint8_t> pixels;
+};
+
+struct Material {
+  glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
+  std::shared_ptr<const Image> baseColorImage;  ///< null = plain colour
+  bool doubleSided = false;
+};
+
+/// One mesh placed in the world. `casts`: it may shadow others; `receives`: visibility is asked on it.
+struct SceneObject {
+  std::string name;
+  std::shared_ptr<const TriangleMesh> mesh;
+  glm::dmat4 worldFromObject{1.0};
+  Material material;
+  bool casts = true;
+  bool receives = true;
+};
+
+struct SceneDescription {
+  std::string name;
+  std::vector<SceneObject> objects;
+  std::optional<Camera> camera;   ///< the file's own, or a built-in's defined one
+  std::vector<AreaLight> lights;  ///< the file's own, or a built-in's defined one
+  std::vector<std::string> notes; ///< warnings while loading, one sentence each
+};
+
+enum class ObjectFilter { all, casters, receivers };
+/// World bounds of the objects that pass the filter, exact over their triangles' corners.
+Bounds boundsWorld(const SceneDescription& scene, ObjectFilter filter);
+
+}  // namespace halfshadow::scene
