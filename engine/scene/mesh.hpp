@@ -16,7 +16,7 @@ namespace halfshadow::scene {
 /// A caller's triangle list, read once by buildMesh and never kept.
 /// `positions`: vertexCount × 3 floats, object space, scene units; `positionStrideBytes` from one vertex to
 /// the next (>= 12). `indices`: indexCount entries, a multiple of 3, counter-clockwise seen from outside;
-/// null = 0, 1, 2, …. `normals` (unit, optional) and `texcoords` (optional) are tightly packed, vertexCount
+/// null = 0, 1, 2, … (as many as indexCount says, or all vertices when that is 0). `normals` (unit, optional) and `texcoords` (optional) are tightly packed, vertexCount
 /// entries each.
 struct MeshView {
   const float* positions = nullptr;

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Opens whatever a user names as a scene and completes it with the camera, light and ground that it lacks.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "base/error.hpp"
+#include "scene/scene_description.hpp"
+
+namespace halfshadow::scenes {
+
+/// automatic: a ground plane is added unless the scene already has a floor: an object that receives, is wider
+/// than all casters together in x and in z, and lies at or below their middle (or itself casts nothing).
+enum class GroundMode { automatic, on, off };
+
+struct SceneOptions {
+  GroundMode ground = GroundMode::automatic;
+  double animationTimeSeconds = 0.0;      ///< files only
+  int animationIndex = 0;                 ///< files only; -1 = rest pose
+  std::optional<scene::Camera> camera;    ///< replaces the scene's; near and far are fitted anyway
+  std::optional<scene::AreaLight> light;  ///< replaces all of the scene's lights
+};
+
+/// Opens `builtin:NAME[@key=value,…]` or a .gltf/.glb file. The result always has a camera, at least one
+/// light and at least one object that receives. What was added is said in `notes`. The rules, with r the
+/// radius and c the centre of the casters' bounds (of all objects, when none casts):
+///  - light: centre c + 3 r · norm(0.35, 1, 0.3), aimed at c, square, half size 0.1 × its distance;
+///  - camera: vertical field of view 34°, looking along norm(0.55, -0.75, -0.6) at the middle of the casters
+///    and of their shadow on the ground, just far enough to see both in a 4:3 image;
+///  - ground: plane at the casters' lowest y, casts = false, 40 r wide, below the centre of the casters;
+///    GroundMode::on adds it also to scenes that have a floor, GroundMode::off removes objects named
+///    `ground` that cast nothing;
+///  - near and far: 0.9 × the nearest and 1.1 × the farthest view depth of the bounds of all objects, near at
+///    least 1/5000 of far, both > 0.
+/// Errors: those of makeBuiltinScene and loadGltf; invalidCamera, invalidLight (for the overrides);
+/// emptyScene.
+Result<scene::SceneDescription> openScene(const std::string& source, const SceneOptions& options);
+
+/// The rules above, for a scene that is already in memory.
+Status completeScene(scene::SceneDescription& description, const SceneOptions& options);
+
+/// Fits near and far to what the camera can see of `bounds`; documented above.
+void fitNearAndFar(scene::Camera& camera, const scene::Bounds& bounds);
+
+}  // namespace halfshadow::scenes

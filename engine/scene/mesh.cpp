@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "scene/mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <unordered_map>
+#include <unordered_set>
+
+namespace halfshadow::scene {
+namespace {
+using Corners = std::array<std::uint32_t, 3>;
+
+std::size_t mix(std::size_t hash, std::uint32_t value) {
+  return (hash ^ value) * 0x9E3779B97F4A7C15ull + (hash >> 29);
+}
+
+struct CornersHash {
+  std::size_t operator()(const Corners& c) const { return mix(mix(mix(0, c[0]), c[1]), c[2]); }
+};
+
+Corners positionBits(const glm::vec3& p) {
+  // + 0 turns -0 into 0: both are the same place.
+  return {std::bit_cast<std::uint32_t>(p.x + 0.0f), std::bit_cast<std::uint32_t>(p.y + 0.0f),
+          std::bit_cast<std::uint32_t>(p.z + 0.0f)};
+}
+
+Result<std::vector<glm::vec3>> copyPositions(const MeshView& view) {
+  if (view.vertexCount > 0 && view.positions == nullptr) {
+    return Error{ErrorCode::invalidMesh, "the mesh has vertices but no positions; set positions"};
+  }
+  if (view.positionStrideBytes < 12) {
+    return Error{ErrorCode::invalidMesh, "the position stride is " +
+                                             std::to_string(view.positionStrideBytes) +
+                                             " bytes; three floats need at least 12"};
+  }
+  std::vector<glm::vec3> positions(view.vertexCount);
+  const auto* bytes = reinterpret_cast<const unsigned char*>(view.positions);
+  for (std::uint32_t i = 0; i < view.vertexCount; ++i) {
+    std::memcpy(&positions[i], bytes + i * view.positionStrideBytes, 12);
+    const glm::vec3& p = positions[i];
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+      return Error{ErrorCode::invalidMesh, "the position of vertex " + std::to_string(i) +
+                                               " is NaN or infinite; give finite numbers"};
+    }
+  }
+  return positions;
+}
+
+std::vector<std::uint32_t> weldByPosition(const std::vector<glm::vec3>& positions) {
+  std::unordered_map<Corners, std::uint32_t, CornersHash> firstAt;
+  firstAt.reserve(positions.size());
+  std::vector<std::uint32_t> welded(positions.size());
+  for (std::uint32_t i = 0; i < positions.size(); ++i) {
+    welded[i] = firstAt.try_emplace(positionBits(positions[i]), i).first->second;
+  }
+  return welded;
+}
+
+bool hasArea(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  // In double: products of float differences are exact enough not to round a thin triangle to nothing.
+  const glm::dvec3 origin(a);
+  const glm::dvec3 normal = glm::cross(glm::dvec3(b) - origin, glm::dvec3(c) - origin);
+  return glm::dot(normal, normal) > 0.0;
+}
+
+Corners rotatedToSmallestFirst(const Corners& c) {
+  const auto first = std::min_element(c.begin(), c.end()) - c.begin();
+  return {c[first], c[(first + 1) % 3], c[(first + 2) % 3]};
+}
+
+/// Counts directed edges per undirected welded edge. An edge is boundary where its two directions differ.
+void countEdges(TriangleMesh& mesh) {
+  struct Uses {
+    std::uint32_t forward = 0, backward = 0;
+  };
+  std::unordered_map<std::uint64_t, Uses> edges;
+  edges.reserve(mesh.indices.size() / 2 + 16);
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
+    const std::uint64_t a = mesh.weldedVertex[mesh.indices[i]], b = mesh.weldedVertex[mesh.indices[next]];
+    Uses& uses = edges[a < b ? a << 32 | b : b << 32 | a];
+    ++(a < b ? uses.forward : uses.backward);
+  }
+  for (const auto& [key, uses] : edges) {
+    mesh.statistics.boundaryEdges +=
+        std::max(uses.forward, uses.backward) - std::min(uses.forward, uses.backward);
+    if (uses.forward + uses.backward > 2) ++mesh.statistics.nonManifoldEdges;
+  }
+}
+}  // namespace
+
+Result<TriangleMesh> buildMesh(const MeshView& view) {
+  Result<std::vector<glm::vec3>> positions = copyPositions(view);
+  if (!positions) return positions.error();
+  const std::size_t cornerCount =
+      view.indices == nullptr && view.indexCount == 0 ? view.vertexCount : view.indexCount;
+  if (cornerCount % 3 != 0) {
+    return Error{ErrorCode::invalidMesh, "the index count " + std::to_string(cornerCount) +
+                                             " is not a multiple of 3; give three per triangle"};
+  }
+
+  TriangleMesh mesh;
+  mesh.positions = std::move(positions).value();
+  mesh.weldedVertex = weldByPosition(mesh.positions);
+  mesh.indices.reserve(cornerCount);
+  std::unordered_set<Corners, CornersHash> seen;
+  seen.reserve(cornerCount / 3);
+  for (std::size_t first = 0; first < cornerCount; first += 3) {
+    Corners corners, welded;
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = view.indices != nullptr ? view.indices[first + k] : static_cast<std::uint32_t>(first + k);
+      if (corners[k] >= view.vertexCount) {
+        return Error{ErrorCode::invalidMesh, "index " + std::to_string(first + k) + " is " +
+                                                 std::to_string(corners[k]) + " but there are only " +
+                                                 std::to_string(view.vertexCount) + " vertices"};
+      }
+      welded[k] = mesh.weldedVertex[corners[k]];
+    }
+    if (!hasArea(mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]])) {
+      ++mesh.statistics.degenerateTrianglesDropped;
+    } else if (!seen.insert(rotatedToSmallestFirst(welded)).second) {
+      ++mesh.statistics.duplicateTrianglesDropped;
+    } else {
+      mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
+    }
+  }
+  if (mesh.indices.empty()) {
+    return Error{ErrorCode::emptyScene, "the mesh has no triangle with an area; give at least one"};
+  }
+  if (view.normals != nullptr) {
+    const auto* n = reinterpret_cast<const glm::vec3*>(view.normals);
+    mesh.normals.assign(n, n + view.vertexCount);
+  }
+  if (view.texcoords != nullptr) {
+    const auto* t = reinterpret_cast<const glm::vec2*>(view.texcoords);
+    mesh.texcoords.assign(t, t + view.vertexCount);
+  }
+  countEdges(mesh);
+  return mesh;
+}
+
+}  // namespace halfshadow::scene
