@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Ground truth: visibility of a rectangular light at every pixel, by ray tracing on the CPU.
+/// Images are row-major, row 0 on top, pixel (x, y) at index y · width + x.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "base/error.hpp"
+#include "scene/scene_description.hpp"
+
+namespace halfshadow::reference {
+
+/// What a pixel's centre shows. Values of ReceiverImage::kind; 0 makes the image usable as a selection mask.
+enum ReceiverKind : std::uint8_t {
+  kNoReceiver = 0,      ///< nothing, an object that does not receive, or a surface turned away from the light
+  kGroundReceiver = 1,  ///< surface of an object that casts nothing
+  kCasterReceiver = 2,  ///< surface of a caster
+};
+
+/// The surface points at which visibility is asked. Positions are double: in a scene far from the origin a
+/// float would move them by more than the shadows' detail. Both vectors are zero where no surface is visible.
+struct ReceiverImage {
+  int width = 0, height = 0;
+  std::vector<glm::dvec3> positionWorld;
+  std::vector<glm::vec3> normalWorld;  ///< unit, of the triangle (not interpolated), on the camera's side
+  std::vector<std::uint8_t> kind;      ///< ReceiverKind
+};
+
+/// Traces one ray through each pixel centre, between the camera's near and far planes.
+/// A pixel is a receiver when its object receives and the light's centre lies on the camera's side of the
+/// triangle's plane. Every surface is two-sided here: one seen from behind is a receiver on its back.
+/// Errors: invalidArgument (size < 1), invalidCamera, emptyScene.
+Result<ReceiverImage> traceReceivers(const scene::SceneDescription& scene, const scene::Camera& camera,
+                                     const scene::AreaLight& light, int width, int height);
+
+struct ReferenceOptions {
+  int samples = 4096;      ///< light points per pixel, >= 1; rounded up, see tracedSamples
+  std::uint32_t seed = 1;  ///< another seed gives independent noise
+  int threads = 0;         ///< 0 = one per hardware thread
+  /// The ray origins on casters are lifted along the normal by this share of the casters' bounding radius, so
+  /// that a surface does not shadow itself. The default gives about 0.002 in scenes of a few units.
+  double liftPerCasterRadius = 8e-4;
+  std::function<void(double)>
+      progress;  ///< share done, 0 … 1; called by the calling thread only; may be empty
+};
+
+/// The number of light points that a request leads to: n × m strata with n = ceil(sqrt(samples)) and
+/// m = ceil(samples / n).
+int tracedSamples(int samples);
+
+/// Visibility at every pixel: the share of the light's *area* (not weighted by any cosine) that no caster
+/// hides, 1 where kind is kNoReceiver. Receivers beside or behind the light's plane are treated like all
+/// others. A light of size zero gives 0 or 1. Unbiased; equal for equal seed whatever the number of threads.
+/// Errors: invalidArgument (samples < 1, vectors of the wrong length), internal (Embree refused to start).
+/// Based on: Mitchell, Consequences of Stratified Sampling in Graphics, 1996, for jittered strata.
+Result<std::vector<float>> traceVisibility(const scene::SceneDescription& scene,
+                                           const scene::AreaLight& light, const ReceiverImage& receivers,
+                                           const ReferenceOptions& options);
+
+/// The same at the listed pixels only: one value per entry of `pixelIndices`, equal to traceVisibility's
+/// there.
+Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, const scene::AreaLight& light,
+                                       const ReceiverImage& receivers,
+                                       std::span<const std::uint32_t> pixelIndices,
+                                       const ReferenceOptions& options);
+
+/// Noise floor: RMSE between `visibility` (traced with `options`) and an independent seed, over every third
+/// penumbra pixel; 0 without any. The noise of one image alone is this divided by the square root of 2.
+Result<double> noiseRmse(const scene::SceneDescription& scene, const scene::AreaLight& light,
+                         const ReceiverImage& receivers, std::span<const float> visibility,
+                         const ReferenceOptions& options);
+
+}  // namespace halfshadow::reference
