@@ -63,13 +63,13 @@ std::vector<Stratum> strataInPacketOrder(Strata strata) {
 class VisibilityTracer {
  public:
   VisibilityTracer(EmbreeScene casters, const std::vector<TraceMesh>& meshes, const TraceSpace& space,
-                   const scene::AreaLight& light, const ReferenceOptions& options)
+                   const scene::AreaLight& light, const ReferenceOptions& options, double originLiftWorld)
       : casters_(std::move(casters)),
         shafts_(meshes),
         space_(space),
         light_{space.fromWorld(light.centerWorld), light.halfU * space.traceFromWorldScale,
                light.halfV * space.traceFromWorldScale},
-        lift_(options.liftPerCasterRadius),
+        lift_(originLiftWorld * space.traceFromWorldScale),
         seedKey_(scattered(options.seed + 0x9e3779b9u)) {
     const Strata strata = light_.hasSize() ? strataFor(options.samples) : Strata{1, 1};
     order_ = strataInPacketOrder(strata);
@@ -166,6 +166,11 @@ int tracedSamples(int samples) {
   return strata.columns * strata.rows;
 }
 
+double automaticOriginLift(const scene::SceneDescription& scene) {
+  const double radius = scene::boundsWorld(scene, scene::ObjectFilter::casters).radius();
+  return radius > 0.0 ? 0.002 * std::pow(10.0, std::floor(std::log10(radius))) : 0.0;
+}
+
 Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, const scene::AreaLight& light,
                                        const ReceiverImage& receivers,
                                        std::span<const std::uint32_t> pixelIndices,
@@ -187,7 +192,9 @@ Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, con
   }
   Result<EmbreeScene> embree = EmbreeScene::build(casters);
   if (!embree) return embree.error();
-  const VisibilityTracer tracer(std::move(*embree), casters, space, light, options);
+  const double originLiftWorld =
+      options.originLiftWorld >= 0.0 ? options.originLiftWorld : automaticOriginLift(scene);
+  const VisibilityTracer tracer(std::move(*embree), casters, space, light, options, originLiftWorld);
   traceInThreads(tracer, receivers, pixelIndices, options, visibility);
   return visibility;
 }

@@ -43,12 +43,17 @@ struct ReferenceOptions {
   int samples = 4096;      ///< light points per pixel, >= 1; rounded up, see tracedSamples
   std::uint32_t seed = 1;  ///< another seed gives independent noise
   int threads = 0;         ///< 0 = one per hardware thread
-  /// The ray origins on casters are lifted along the normal by this share of the casters' bounding radius, so
-  /// that a surface does not shadow itself. The default gives about 0.002 in scenes of a few units.
-  double liftPerCasterRadius = 8e-4;
-  std::function<void(double)>
-      progress;  ///< share done, 0 … 1; called by the calling thread only; may be empty
+  /// How far the ray origins on casters are lifted along the normal, in world units, so that a surface does
+  /// not shadow itself; negative = automaticOriginLift.
+  double originLiftWorld = -1.0;
+  /// Share done, 0 … 1; called by the calling thread only; may be empty.
+  std::function<void(double)> progress;
 };
+
+/// 0.002 · 10^floor(log10(r)), r the radius of the casters' bounds: around a thousandth of the casters' size,
+/// but equal for scenes of like size so that their images can be compared (0.002 for 1 <= r < 10). It matters
+/// where facets meet the light at a grazing angle. 0 without casters.
+double automaticOriginLift(const scene::SceneDescription& scene);
 
 /// The number of light points that a request leads to: n × m strata with n = ceil(sqrt(samples)) and
 /// m = ceil(samples / n).
