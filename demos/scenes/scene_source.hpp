@@ -12,8 +12,9 @@
 
 namespace halfshadow::scenes {
 
-/// automatic: a ground plane is added unless the scene already has a floor: an object that receives, is wider
-/// than all casters together in x and in z, and lies at or below their middle (or itself casts nothing).
+/// automatic: a ground plane is added unless the scene already has a floor: an object that receives, is at
+/// least as wide in x and in z as all other casters together, begins at or below their middle, and is flat
+/// (less high than a quarter of its width).
 enum class GroundMode { automatic, on, off };
 
 struct SceneOptions {
@@ -33,8 +34,7 @@ struct SceneOptions {
 ///  - ground: plane at the casters' lowest y, casts = false, 40 r wide, below the centre of the casters;
 ///    GroundMode::on adds it also to scenes that have a floor, GroundMode::off removes objects named
 ///    `ground` that cast nothing;
-///  - near and far: 0.9 × the nearest and 1.1 × the farthest view depth of the bounds of all objects, near at
-///    least 1/5000 of far, both > 0.
+///  - near and far: see fitNearAndFar.
 /// Errors: those of makeBuiltinScene and loadGltf; invalidCamera, invalidLight (for the overrides);
 /// emptyScene.
 Result<scene::SceneDescription> openScene(const std::string& source, const SceneOptions& options);
@@ -42,7 +42,9 @@ Result<scene::SceneDescription> openScene(const std::string& source, const Scene
 /// The rules above, for a scene that is already in memory.
 Status completeScene(scene::SceneDescription& description, const SceneOptions& options);
 
-/// Fits near and far to what the camera can see of `bounds`; documented above.
-void fitNearAndFar(scene::Camera& camera, const scene::Bounds& bounds);
+/// Sets near to 0.9 × the smallest view depth that a point at the distance of the nearest object's box can
+/// have in an image of aspect up to 2:1, but at least 1/5000 of far; far to 1.1 × the largest view depth of
+/// all boxes.
+void fitNearAndFar(scene::Camera& camera, const scene::SceneDescription& description);
 
 }  // namespace halfshadow::scenes
