@@ -107,7 +107,9 @@ Result<FloatImage> readImage(const std::filesystem::path& path) {
     return Error{ErrorCode::fileMalformed,
                  "'" + path.string() + "' is not a readable image (" + why + "); give an EXR or PNG file"};
   };
-  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string());
+  OIIO::ImageSpec asStored;
+  asStored.attribute("oiio:UnassociatedAlpha", 1);  // colours are not multiplied by alpha on the way in
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::open(path.string(), &asStored);
   if (!input) return malformed(OIIO::geterror());
   const OIIO::ImageSpec& spec = input->spec();
   FloatImage image{.width = spec.width, .height = spec.height, .channels = spec.nchannels};

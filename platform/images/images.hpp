@@ -25,7 +25,7 @@ struct FloatImage {
   int channelIndex(std::string_view name) const;
 };
 
-/// Reads any format that OpenImageIO knows; integers become 0 … 1, no colour conversion.
+/// Reads any format that OpenImageIO knows; integers become 0 … 1; no colour conversion, not premultiplied.
 /// Errors: fileNotFound, fileMalformed.
 Result<FloatImage> readImage(const std::filesystem::path& path);
 
