@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Runs a plan: makes textures and framebuffers, binds, clears, discards, times and counts per pass.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framegraph/plan.hpp"
+#include "gl/encoder.hpp"
+
+namespace halfshadow::framegraph {
+
+/// What a pass sees while it runs.
+class PassContext {
+ public:
+  PassContext(gl::Encoder& encoderToUse, const gl::Rect& viewportToUse)
+      : encoder(encoderToUse), viewport(viewportToUse) {}
+  gl::Encoder& encoder;
+  gl::Rect viewport;
+  /// Texture behind a resource that the pass reads.
+  const gl::Texture& texture(ResourceId resource) const;
+
+ private:
+  friend class Executor;
+  const class Executor* executor_ = nullptr;
+};
+
+struct PassReport {
+  std::string name, target;
+  gl::Counters counters;
+  std::uint64_t bytesLoaded = 0, bytesStored = 0;
+  bool cleared = false, loaded = false, stored = false, discarded = false;
+  double milliseconds = 0.0;  ///< 0 unless timed
+};
+
+enum class PassTiming { off, perPass };
+
+class Executor {
+ public:
+  explicit Executor(gl::Context& context);
+  ~Executor();
+
+  /// Key of what a persistent resource holds (its size, format and filter must match too); 0 = nothing.
+  std::uint64_t contentKeyOf(const ResourceDesc& desc) const;
+  Result<std::vector<PassReport>> run(const Graph& graph, const Plan& plan, gl::Encoder& encoder,
+                                      PassTiming timing);
+
+  /// Texture of a resource after run(), until the next run() or trim(). Null when it was not made.
+  const gl::Texture* texture(const Graph& graph, ResourceId resource) const;
+  /// Framebuffer over the resource's texture, for read-back.
+  const gl::Framebuffer* framebufferFor(const Graph& graph, ResourceId resource) const;
+
+  std::uint64_t memoryBytes() const;  ///< of all textures and renderbuffers held now
+  /// Frees persistent resources that the last `frames` runs did not use (0 = everything).
+  void trim(int frames);
+  void forgetContent();  ///< persistent content becomes invalid (context loss, device change)
+
+ private:
+  friend class PassContext;
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace halfshadow::framegraph

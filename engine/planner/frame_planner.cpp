@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "planner/frame_planner.hpp"
+
+#include <algorithm>
+
+#include "planner/light_space.hpp"
+
+namespace halfshadow::planner {
+namespace {
+
+constexpr int kChangesUntilDynamic = 2;
+constexpr std::uint64_t kKeySeed = 0x68616c66736861ull;
+
+bool shines(const scene::AreaLight& light) {
+  return light.intensity > 0.0 && std::max({light.color.r, light.color.g, light.color.b}) > 0.0f;
+}
+
+// Receivers with large boxes first: they are the likeliest to be shadowed, so that searches end early.
+std::vector<std::uint32_t> largestFirst(const FrameInput& input, std::vector<std::uint32_t> receivers) {
+  std::stable_sort(receivers.begin(), receivers.end(), [&](std::uint32_t a, std::uint32_t b) {
+    return input.objects[a].boundsWorld.radius() > input.objects[b].boundsWorld.radius();
+  });
+  return receivers;
+}
+
+bool shadowsAny(const FrameInput& input, const scene::AreaLight& light, std::uint32_t caster,
+                const std::vector<std::uint32_t>& receivers) {
+  return std::any_of(receivers.begin(), receivers.end(), [&](std::uint32_t receiver) {
+    return shadowRegionMeets(light, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld);
+  });
+}
+
+std::uint64_t keyOf(const FrameInput& input, std::uint64_t lightRevision,
+                    const std::vector<std::uint32_t>& casters) {
+  std::uint64_t key = combineKeys(kKeySeed, lightRevision);
+  for (const std::uint32_t caster : casters) {
+    key = combineKeys(combineKeys(key, input.objects[caster].id), input.objects[caster].revision);
+  }
+  return key == 0 ? 1 : key;
+}
+
+std::uint64_t castersRevision(const FrameInput& input) {
+  std::uint64_t revision = kKeySeed;
+  for (const PlannedObject& object : input.objects) {
+    if (object.casts) revision = combineKeys(combineKeys(revision, object.id), object.revision);
+  }
+  return revision;
+}
+
+std::uint64_t sceneRevision(const FrameInput& input) {
+  std::uint64_t revision = kKeySeed;
+  for (const PlannedObject& object : input.objects) {
+    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+    revision = combineKeys(combineKeys(combineKeys(revision, object.id), object.revision), roles);
+  }
+  return revision;
+}
+
+std::string casterName(const FrameInput& input, std::uint32_t caster, std::size_t light) {
+  std::string name = "caster " + std::to_string(input.objects[caster].id);
+  if (input.lights.size() > 1) name += " for light " + std::to_string(light);
+  return name;
+}
+
+}  // namespace
+
+std::string_view skipCode(SkipReason reason) {
+  switch (reason) {
+#define HALFSHADOW_SKIP_CODE(name, code, text) \
+  case SkipReason::name:                       \
+    return code;
+    HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_CODE)
+#undef HALFSHADOW_SKIP_CODE
+  }
+  return "unknown";
+}
+
+std::string_view skipText(SkipReason reason) {
+  switch (reason) {
+#define HALFSHADOW_SKIP_TEXT(name, code, text) \
+  case SkipReason::name:                       \
+    return text;
+    HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_TEXT)
+#undef HALFSHADOW_SKIP_TEXT
+  }
+  return "unknown";
+}
+
+// Based on: Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", section 4 (the
+// finaliser's constants); the seed is mixed first, so that the order of values matters.
+std::uint64_t combineKeys(std::uint64_t seed, std::uint64_t value) {
+  std::uint64_t z = seed * 0x9e3779b97f4a7c15ull + value + 0x632be59bd9b4e019ull;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
+
+void FramePlanner::reset() {
+  history_.clear();
+}
+
+void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
+                                LightHistory& history) {
+  history.relevant.clear();
+  history.irrelevant.clear();
+  const LightSpace space = lightSpace(input.lights[light]);
+  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
+    const PlannedObject& object = input.objects[i];
+    if (!object.casts || object.boundsWorld.empty()) continue;
+    if (space.boundsLight(object.boundsWorld).high.z <= 0.0) {
+      history.irrelevant.push_back({casterName(input, i, light), SkipReason::behindLight});
+    } else if (!shadowsAny(input, input.lights[light], i, receivers.all)) {
+      history.irrelevant.push_back({casterName(input, i, light), SkipReason::noReceiverBehind});
+    } else {
+      history.relevant.push_back(i);
+    }
+  }
+}
+
+LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
+                                  LightHistory& history, std::vector<Skip>& skips) {
+  const std::uint64_t lightRevision = light < input.lightRevisions.size() ? input.lightRevisions[light] : 0;
+  const std::string lightName = "light " + std::to_string(light);
+  LightPlan plan;
+  if (!shines(input.lights[light])) {
+    plan.active = false;
+    plan.contentKey = keyOf(input, lightRevision, {});
+    skips.push_back({lightName, SkipReason::lightOff});
+    return plan;
+  }
+  const std::uint64_t castersNow = castersRevision(input);
+  const bool first = history.key == 0;
+  const bool changed =
+      first || history.lightRevision != lightRevision || history.castersRevision != castersNow;
+  history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
+  const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
+  const std::uint64_t sceneNow = combineKeys(sceneRevision(input), lightRevision);
+  if (first || sceneNow != history.sceneRevision) findRelevant(input, light, receivers, history);
+  skips.insert(skips.end(), history.irrelevant.begin(), history.irrelevant.end());
+
+  // A complete view needs every relevant caster; one without those out of view, what this camera needs.
+  std::vector<std::uint32_t> needed = history.relevant, outOfView;
+  if (dynamic || history.reduced) {
+    const auto split = std::stable_partition(needed.begin(), needed.end(), [&](std::uint32_t caster) {
+      return shadowsAny(input, input.lights[light], caster, receivers.visible);
+    });
+    outOfView.assign(split, needed.end());
+    needed.erase(split, needed.end());
+  }
+  const auto drawnBefore = [&](std::uint32_t caster) {
+    const auto& drawn = history.drawnIds;
+    return std::find(drawn.begin(), drawn.end(), input.objects[caster].id) != drawn.end();
+  };
+  if (dynamic) {
+    plan.casters = needed;
+    history.reduced = !outOfView.empty();
+  } else if (!changed && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
+    // The cached view holds all that is needed, perhaps more: it stays.
+    for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
+      if (input.objects[i].casts && drawnBefore(i)) plan.casters.push_back(i);
+    }
+    std::erase_if(outOfView, drawnBefore);
+  } else {
+    plan.casters = history.relevant;
+    history.reduced = false;
+    outOfView.clear();
+  }
+  for (const std::uint32_t caster : outOfView) {
+    skips.push_back({casterName(input, caster, light), SkipReason::shadowOutOfView});
+  }
+
+  plan.contentKey = keyOf(input, lightRevision, plan.casters);
+  plan.active = !plan.casters.empty();
+  if (!plan.active) {
+    skips.push_back({lightName, SkipReason::noCasters});
+  } else if (plan.contentKey == history.key) {
+    skips.push_back({lightName, SkipReason::unchanged});
+  }
+  history.lightRevision = lightRevision;
+  history.castersRevision = castersNow;
+  history.sceneRevision = sceneNow;
+  history.key = plan.contentKey;
+  history.drawnIds.clear();
+  for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(input.objects[caster].id);
+  return plan;
+}
+
+FramePlan FramePlanner::plan(const FrameInput& input) {
+  FramePlan plan;
+  Receivers receivers;
+  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
+    const PlannedObject& object = input.objects[i];
+    if (!object.receives || object.boundsWorld.empty()) continue;
+    receivers.all.push_back(i);
+    if (!input.camera || visibleFrom(*input.camera, input.aspectWidthOverHeight, object.boundsWorld)) {
+      plan.receivers.push_back(i);
+    } else {
+      plan.skips.push_back({"receiver " + std::to_string(object.id), SkipReason::receiverOutOfView});
+    }
+  }
+  receivers.all = largestFirst(input, std::move(receivers.all));
+  receivers.visible = largestFirst(input, plan.receivers);
+  history_.resize(input.lights.size());
+  for (std::size_t light = 0; light < input.lights.size(); ++light) {
+    plan.lights.push_back(planLight(input, light, receivers, history_[light], plan.skips));
+  }
+  return plan;
+}
+
+}  // namespace halfshadow::planner

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// What this frame needs: which casters can matter, which light views are still valid, and the reason of
+/// every skip. Pure data, no GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "planner/light_fit.hpp"
+#include "scene/bounds.hpp"
+#include "scene/camera.hpp"
+#include "scene/light.hpp"
+
+namespace halfshadow::planner {
+
+// X(enumerator, "code", "sentence")
+#define HALFSHADOW_SKIP_LIST(X)                                                                        \
+  X(unchanged, "unchanged", "its inputs have the same revisions as when it was last made")             \
+  X(behindLight, "behind-light", "the caster lies wholly behind the light's plane")                    \
+  X(noReceiverBehind, "no-receiver-behind", "no receiver lies in the caster's shadow region")          \
+  X(shadowOutOfView, "shadow-out-of-view", "the caster's shadow region misses every visible receiver") \
+  X(receiverOutOfView, "receiver-out-of-view", "the receiver lies outside the camera's view")          \
+  X(noCasters, "no-casters", "no caster can shadow a receiver")                                        \
+  X(lightOff, "light-off", "the light has no intensity")                                               \
+  X(notRead, "not-read", "no pass reads its result")
+
+enum class SkipReason {
+#define HALFSHADOW_SKIP_ENUM(name, code, text) name,
+  HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_ENUM)
+#undef HALFSHADOW_SKIP_ENUM
+};
+std::string_view skipCode(SkipReason reason);
+std::string_view skipText(SkipReason reason);
+
+/// One object as the planner sees it. `revision` changes whenever its mesh or transform does.
+struct PlannedObject {
+  std::uint32_t id = 0;
+  scene::Bounds boundsWorld;
+  std::uint64_t revision = 0;
+  bool casts = true, receives = true;
+};
+
+struct FrameInput {
+  std::span<const PlannedObject> objects;
+  const scene::Camera* camera = nullptr;
+  double aspectWidthOverHeight = 1.0;
+  std::span<const scene::AreaLight> lights;
+  std::span<const std::uint64_t> lightRevisions;
+};
+
+struct Skip {
+  std::string what;  ///< "caster 3", "receiver 7", "light 0"
+  SkipReason reason = SkipReason::unchanged;
+};
+
+struct LightPlan {
+  std::vector<std::uint32_t> casters;  ///< indices into FrameInput::objects, in order
+  std::uint64_t contentKey = 0;        ///< of the light, the casters drawn and their revisions; never 0
+  bool active = true;                  ///< false: no caster matters, visibility is 1 everywhere
+};
+
+struct FramePlan {
+  std::vector<std::uint32_t> receivers;  ///< indices into FrameInput::objects
+  std::vector<LightPlan> lights;
+  std::vector<Skip> skips;
+};
+
+/// Keeps, per light, which casters the cached light view holds.
+///
+/// Static casters and light: the view is made from every caster that can shadow any receiver, whatever the
+/// camera sees, so that a camera-only move changes no key. While a caster or the light changes in two frames
+/// running (the view is remade anyway), casters whose shadow region misses all visible receivers are dropped
+/// too; when the movement ends and the camera needs a dropped caster, the view is remade once.
+class FramePlanner {
+ public:
+  FramePlan plan(const FrameInput& input);
+  void reset();
+
+ private:
+  struct LightHistory {
+    std::uint64_t lightRevision = 0;
+    std::uint64_t castersRevision = 0;
+    int changedFramesRunning = 0;
+    std::vector<std::uint32_t> drawnIds;
+    std::uint64_t key = 0;
+    bool reduced = false;  ///< the view lacks casters that no visible receiver needed
+    // Relevance does not depend on the camera: searched again only when the scene or the light changes.
+    std::uint64_t sceneRevision = 0;
+    std::vector<std::uint32_t> relevant;
+    std::vector<Skip> irrelevant;
+  };
+  struct Receivers {
+    std::vector<std::uint32_t> all, visible;  // largest first
+  };
+  static void findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
+                           LightHistory& history);
+  static LightPlan planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
+                             LightHistory& history, std::vector<Skip>& skips);
+  std::vector<LightHistory> history_;
+};
+
+/// True when the caster's penumbra region (all rays from points of the light through the box) can meet the
+/// other box. Conservative: never false when a shadow is possible.
+bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& casterWorld,
+                       const scene::Bounds& receiverWorld);
+
+/// True when the box can be inside the camera's view. Conservative.
+bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight, const scene::Bounds& boundsWorld);
+
+/// 64-bit mixing of revisions into content keys.
+std::uint64_t combineKeys(std::uint64_t seed, std::uint64_t value);
+
+}  // namespace halfshadow::planner

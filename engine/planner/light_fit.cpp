@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "planner/light_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "planner/light_space.hpp"
+
+namespace halfshadow::planner {
+namespace {
+
+// Extents and depths move in these steps: coarse enough that a moving caster rarely changes the mapping, fine
+// enough that at most 4.4 % of the map is wasted.
+constexpr double kStepsPerOctave = 16.0;
+// Gap between the casters and the depth range's ends, relative: 64 quanta of a 16-bit map whose range is one
+// octave, so that no caster is stored as 0 or 1 (1 means "nothing here").
+constexpr double kDepthMargin = 1.0 / 1024;
+// Casters that are smaller seen from the light than this would make the texel size vanish.
+constexpr double kMinTangentExtent = 1e-4;
+
+double stepUp(double value) {
+  return std::exp2(std::ceil(std::log2(value) * kStepsPerOctave) / kStepsPerOctave);
+}
+double stepDown(double value) {
+  return std::exp2(std::floor(std::log2(value) * kStepsPerOctave) / kStepsPerOctave);
+}
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+};
+
+struct DepthRange {
+  double nearDistance, farDistance;
+};
+
+// `nearest` is 0 when a caster crosses the light's plane.
+DepthRange fitDepth(double nearest, double farthest, double minNearShare) {
+  const double limit = minNearShare * farthest;
+  double nearDistance = nearest > 0.0 ? stepDown(nearest * (1.0 - kDepthMargin)) : 0.0;
+  if (nearDistance < limit) {
+    // A stepped limit, unless it would cut a caster that the limit itself lets through.
+    nearDistance = std::min(stepUp(limit), std::max(limit, nearest * (1.0 - kDepthMargin)));
+  }
+  return {nearDistance, stepUp(farthest * (1.0 + kDepthMargin))};
+}
+
+// Smallest interval of whole steps that holds `tangents` and the border; the origin is a whole texel.
+Interval snapTangents(const Interval& tangents, int mapSize, int borderTexels) {
+  // The origin is rounded down by up to one texel on top of the border on each side.
+  const double usableShare = std::max(1, mapSize - 2 * borderTexels - 1) / static_cast<double>(mapSize);
+  const double extent = stepUp(std::max(tangents.high - tangents.low, kMinTangentExtent) / usableShare);
+  const double texel = extent / mapSize;
+  const double low = (std::floor(tangents.low / texel) - borderTexels) * texel;
+  return {low, low + extent};
+}
+
+// Tangents along one axis (0 = x, 1 = y) of the points' part in front of `nearDistance`. Points are not
+// joined to casters, so a point behind may belong to any of them: wherever a caster is cut, it is cut inside
+// the box of all points.
+Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, double nearDistance) {
+  Interval tangents, lateral;
+  bool cut = false;
+  for (const glm::dvec3& point : pointsLight) {
+    lateral.include(point[axis]);
+    if (point.z >= nearDistance) {
+      tangents.include(point[axis] / point.z);
+    } else {
+      cut = true;
+    }
+  }
+  if (cut) {
+    tangents.include(lateral.low / nearDistance);
+    tangents.include(lateral.high / nearDistance);
+  }
+  return tangents;
+}
+
+}  // namespace
+
+glm::dmat4 LightFit::clipFromLight() const {
+  const glm::dvec2 extent = tangentHigh - tangentLow, sum = tangentHigh + tangentLow;
+  // storedDepth = a - b / z
+  const double a = farDistance / (farDistance - nearDistance), b = a * nearDistance;
+  glm::dmat4 m(0.0);
+  m[0][0] = 2.0 / extent.x;
+  m[1][1] = 2.0 / extent.y;
+  m[2] = glm::dvec4(-sum.x / extent.x, -sum.y / extent.y, 2.0 * a - 1.0, 1.0);
+  m[3][2] = -2.0 * b;
+  return m;
+}
+
+double LightFit::storedDepth(double z) const {
+  return (1.0 / nearDistance - 1.0 / z) / (1.0 / nearDistance - 1.0 / farDistance);
+}
+
+LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
+                  const LightFitOptions& options) {
+  const LightSpace space = lightSpace(light);
+  LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
+  std::vector<glm::dvec3> pointsLight;
+  pointsLight.reserve(casterPointsWorld.size());
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+  for (const glm::dvec3& point : casterPointsWorld) {
+    pointsLight.push_back(space.lightFromWorld(point));
+    nearest = std::min(nearest, pointsLight.back().z);
+    farthest = std::max(farthest, pointsLight.back().z);
+  }
+  if (!(farthest > 0.0)) return fit;
+  const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
+  fit.nearDistance = depth.nearDistance;
+  fit.farDistance = depth.farDistance;
+  for (int axis = 0; axis < 2; ++axis) {
+    Interval tangents = fitTangents(pointsLight, axis, depth.nearDistance);
+    if (tangents.low > options.maxTangent || tangents.high < -options.maxTangent) return fit;
+    tangents = {std::max(tangents.low, -options.maxTangent), std::min(tangents.high, options.maxTangent)};
+    const Interval snapped = snapTangents(tangents, options.mapSize, options.borderTexels);
+    fit.tangentLow[axis] = snapped.low;
+    fit.tangentHigh[axis] = snapped.high;
+  }
+  fit.empty = false;
+  return fit;
+}
+
+}  // namespace halfshadow::planner

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// The light-space view that depth maps are rendered with: from the light's centre, along its emission
+/// direction, sides parallel to the light's, fitted to the casters. Pure data, double precision.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+
+#include "base/error.hpp"
+#include "scene/bounds.hpp"
+#include "scene/light.hpp"
+
+namespace halfshadow::planner {
+
+/// Light space: origin at the light's centre, x along halfU, y along halfV, z along the emission direction
+/// (right-handed: z = x × y), world units. A point's tangent coordinates are (x/z, y/z).
+/// The map covers tangents [tangentLow, tangentHigh]; its content is affine in reciprocal depth:
+/// storedDepth = (1/near - 1/z) / (1/near - 1/far), 0 at near, 1 at far.
+struct LightFit {
+  glm::dmat4 lightFromWorld{1.0};
+  glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
+  glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
+  double nearDistance = 1.0, farDistance = 2.0;  ///< along z
+  int mapSize = 1024;
+  bool empty = true;  ///< no caster in front of the light
+
+  /// Texels per unit tangent, along x and y.
+  glm::dvec2 texelsPerTangent() const { return glm::dvec2(mapSize) / (tangentHigh - tangentLow); }
+  /// Clip space of the map: w = z, x and y in [-w, w], depth -1 … 1 from near to far, affine in 1/z after
+  /// the divide.
+  glm::dmat4 clipFromLight() const;
+  double storedDepth(double z) const;
+};
+
+struct LightFitOptions {
+  int mapSize = 1024;
+  int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
+  double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
+  double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
+};
+
+/// Smallest view of `casterPointsWorld` (corners of the casters' boxes, or their vertices: tighter) that
+/// fulfils the options; extents grow in steps of 1/16 octave and the origin is snapped to whole texels, so
+/// that a moving caster does not make static shadow edges crawl.
+LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
+                  const LightFitOptions& options);
+
+}  // namespace halfshadow::planner
