@@ -30,9 +30,13 @@ TraceMesh traceMeshOf(const scene::SceneObject& object, const TraceSpace& space)
 
 Result<EmbreeScene> EmbreeScene::build(const std::vector<TraceMesh>& meshes) {
   const auto failed = [](RTCDevice device) {
-    return Error{ErrorCode::internal, "Embree cannot build the scene (error " +
-                                          std::to_string(static_cast<int>(rtcGetDeviceError(device))) +
-                                          "); free memory or use a smaller scene"};
+    const RTCError code = rtcGetDeviceError(device);
+    if (code == RTC_ERROR_OUT_OF_MEMORY) {
+      return Error{ErrorCode::outOfMemory,
+                   "Embree ran out of memory building the scene; use a smaller scene"};
+    }
+    return Error{ErrorCode::internal, "Embree cannot build the scene: error " + std::to_string(code) +
+                                          " (a number of its RTCError); check its installation"};
   };
   EmbreeScene result;
   result.device_.reset(rtcNewDevice(nullptr));

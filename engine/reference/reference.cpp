@@ -18,6 +18,8 @@ namespace {
 
 constexpr std::size_t kPacketRays = 16;
 constexpr std::size_t kPixelsPerChunk = 32;
+// What the measurements call penumbra; this module does not depend on theirs.
+constexpr float kPenumbraLow = 0.005f, kPenumbraHigh = 0.995f;
 
 /// Scatters the bits of an integer: every output bit depends on every input bit.
 /// Based on: Appleby, MurmurHash3, 2011, the 32-bit finaliser.
@@ -184,6 +186,10 @@ Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, con
                   [&](std::uint32_t i) { return i >= pixelCount; })) {
     return Error{ErrorCode::invalidArgument, "the receiver image's vectors are shorter than its pixel count"};
   }
+  const glm::dvec3 lightSum = light.centerWorld + light.halfU + light.halfV;
+  if (!std::isfinite(lightSum.x + lightSum.y + lightSum.z)) {
+    return Error{ErrorCode::invalidLight, "the light has a NaN or infinite component; give finite numbers"};
+  }
   std::vector<float> visibility(pixelIndices.size(), 1.0f);
   const TraceSpace space = traceSpaceOf(scene);
   std::vector<TraceMesh> casters;
@@ -217,7 +223,7 @@ Result<double> noiseRmse(const scene::SceneDescription& scene, const scene::Area
   std::size_t penumbraPixels = 0;
   for (std::size_t i = 0; i < visibility.size(); ++i) {
     const bool penumbra =
-        receivers.kind[i] != kNoReceiver && visibility[i] > 0.005f && visibility[i] < 0.995f;
+        receivers.kind[i] != kNoReceiver && visibility[i] > kPenumbraLow && visibility[i] < kPenumbraHigh;
     if (penumbra && penumbraPixels++ % 3 == 0) chosen.push_back(static_cast<std::uint32_t>(i));
   }
   if (chosen.empty()) return 0.0;

@@ -62,7 +62,8 @@ int tracedSamples(int samples);
 /// Visibility at every pixel: the share of the light's *area* (not weighted by any cosine) that no caster
 /// hides, 1 where kind is kNoReceiver. Receivers beside or behind the light's plane are treated like all
 /// others. A light of size zero gives 0 or 1. Unbiased; equal for equal seed whatever the number of threads.
-/// Errors: invalidArgument (samples < 1, vectors of the wrong length), internal (Embree refused to start).
+/// Errors: invalidArgument (samples not in 1 … 2^24, vectors of the wrong length), invalidLight (NaN or
+/// infinite), outOfMemory, internal (Embree refused to start).
 /// Based on: Mitchell, Consequences of Stratified Sampling in Graphics, 1996, for jittered strata.
 Result<std::vector<float>> traceVisibility(const scene::SceneDescription& scene,
                                            const scene::AreaLight& light, const ReceiverImage& receivers,

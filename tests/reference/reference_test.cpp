@@ -189,6 +189,9 @@ TEST(Reference, WrongArgumentsAreRefusedWithASentence) {
   const ReceiverImage receivers = groundGrid(4);
   EXPECT_EQ(reference::traceVisibility(scene, kLight, receivers, {.samples = 0}).error().code,
             ErrorCode::invalidArgument);
+  scene::AreaLight nowhere = kLight;
+  nowhere.halfU.x = std::nan("");
+  EXPECT_EQ(reference::traceVisibility(scene, nowhere, receivers, {}).error().code, ErrorCode::invalidLight);
   const std::vector<std::uint32_t> outside{16};
   EXPECT_EQ(reference::tracePixels(scene, kLight, receivers, outside, {}).error().code,
             ErrorCode::invalidArgument);
