@@ -1,0 +1,407 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "gl/encoder.hpp"
+
+#include "gl/state_list.hpp"
+
+namespace halfshadow::gl {
+namespace {
+
+GLenum glOf(Compare compare) {
+  constexpr GLenum kTable[] = {GL_NEVER,   GL_LESS,   GL_LEQUAL,   GL_EQUAL,
+                               GL_GREATER, GL_GEQUAL, GL_NOTEQUAL, GL_ALWAYS};
+  return kTable[static_cast<int>(compare)];
+}
+
+GLenum glOf(BlendFactor factor) {
+  constexpr GLenum kTable[] = {GL_ZERO,      GL_ONE,
+                               GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR,
+                               GL_DST_COLOR, GL_ONE_MINUS_DST_COLOR,
+                               GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA,
+                               GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA};
+  return kTable[static_cast<int>(factor)];
+}
+
+GLenum glOf(BlendEquation equation) {
+  constexpr GLenum kTable[] = {GL_FUNC_ADD, GL_FUNC_SUBTRACT, GL_FUNC_REVERSE_SUBTRACT, GL_MIN_EXT,
+                               GL_MAX_EXT};
+  return kTable[static_cast<int>(equation)];
+}
+
+GLenum glOf(StencilOp op) {
+  constexpr GLenum kTable[] = {GL_KEEP,      GL_ZERO, GL_REPLACE, GL_INCR_WRAP,
+                               GL_DECR_WRAP, GL_INCR, GL_DECR,    GL_INVERT};
+  return kTable[static_cast<int>(op)];
+}
+
+struct AttributeEncoding {
+  GLenum type;
+  GLboolean normalized;
+};
+AttributeEncoding glOf(AttributeType type) {
+  constexpr AttributeEncoding kTable[] = {{GL_FLOAT, GL_FALSE},
+                                          {GL_UNSIGNED_BYTE, GL_TRUE},
+                                          {GL_BYTE, GL_TRUE},
+                                          {GL_UNSIGNED_SHORT, GL_TRUE},
+                                          {GL_SHORT, GL_TRUE}};
+  return kTable[static_cast<int>(type)];
+}
+
+const void* bufferOffset(std::size_t bytes) {
+  return reinterpret_cast<const void*>(bytes);
+}
+
+}  // namespace
+
+Counters Counters::operator-(const Counters& earlier) const {
+  Counters difference;
+  difference.draws = draws - earlier.draws;
+  difference.triangles = triangles - earlier.triangles;
+  difference.framebufferSwitches = framebufferSwitches - earlier.framebufferSwitches;
+  difference.clears = clears - earlier.clears;
+  difference.programSwitches = programSwitches - earlier.programSwitches;
+  difference.uniformUploads = uniformUploads - earlier.uniformUploads;
+  difference.textureUploadBytes = textureUploadBytes - earlier.textureUploadBytes;
+  difference.bufferUploadBytes = bufferUploadBytes - earlier.bufferUploadBytes;
+  return difference;
+}
+
+/// What the encoder knows to be set. An empty optional is unknown, so the next set is sent.
+struct Encoder::Cache {
+  /// The last value sent for one state type; `set` sends only a different one.
+  template <typename State>
+  struct Entry {
+    std::optional<typename State::Type> value;
+    void set(const Functions& gl, const typename State::Type& wanted) {
+      if (value == wanted) return;
+      State::set(gl, wanted);
+      value = wanted;
+    }
+  };
+  template <GLenum capability>
+  using Flag = Entry<state::Enable<capability>>;
+
+  // Fixed state.
+  Entry<state::DepthFunc> depthFunc;
+  Entry<state::DepthMask> depthMask;
+  Entry<state::CullFaceMode> cullFace;
+  Entry<state::BlendFunc> blendFunc;
+  Entry<state::BlendEquation> blendEquation;
+  Entry<state::ColorMask> colorMask;
+  Entry<state::ScissorBox> scissorBox;
+  Entry<state::PolygonOffset> polygonOffset;
+  Entry<state::StencilFunc<GL_FRONT>> stencilFuncFront;
+  Entry<state::StencilFunc<GL_BACK>> stencilFuncBack;
+  Entry<state::StencilOps<GL_FRONT>> stencilOpsFront;
+  Entry<state::StencilOps<GL_BACK>> stencilOpsBack;
+  Entry<state::StencilWriteMask<GL_FRONT>> stencilMaskFront;
+  Entry<state::StencilWriteMask<GL_BACK>> stencilMaskBack;
+  Entry<state::Viewport> viewport;
+  Entry<state::ClearColor> clearColor;
+  Entry<state::ClearDepth> clearDepth;
+  Entry<state::ClearStencil> clearStencil;
+  Flag<GL_DEPTH_TEST> depthTest;
+  Flag<GL_CULL_FACE> cull;
+  Flag<GL_BLEND> blend;
+  Flag<GL_STENCIL_TEST> stencilTest;
+  Flag<GL_SCISSOR_TEST> scissorTest;
+  Flag<GL_POLYGON_OFFSET_FILL> polygonOffsetFill;
+
+  // Bindings: what is wanted, and what is known to be bound.
+  struct Attribute {
+    std::uint32_t buffer = 0;
+    int components = 0;
+    AttributeType type = AttributeType::float32;
+    int strideBytes = 0;
+    std::size_t offsetBytes = 0;
+    bool operator==(const Attribute&) const = default;
+  };
+  struct Bindings {
+    std::optional<std::uint32_t> program, framebuffer, arrayBuffer, indexBuffer;
+    std::array<std::optional<std::uint32_t>, state::kTextureUnits> textures;
+    std::optional<int> activeUnit;
+    std::array<std::optional<Attribute>, state::kVertexAttributes> attributes;
+    std::array<std::optional<bool>, state::kVertexAttributes> attributeEnabled;
+  };
+  Bindings bound;
+  std::uint64_t boundRevision = 0;
+  std::uint32_t wantedProgram = 0;
+  std::array<std::uint32_t, state::kTextureUnits> wantedTextures{};
+  std::optional<std::uint32_t>
+      countedFramebuffer;  // survives stale bindings: a rebind of the same is no switch
+
+  const Framebuffer* pass = nullptr;
+};
+
+Encoder::Encoder(Context& context)
+    : context_(context), countedUploads_(context.uploads()), cache_(std::make_unique<Cache>()) {}
+
+Encoder::~Encoder() = default;
+
+Counters& Encoder::counters() {
+  const Context::Uploads& now = context_.uploads();
+  counters_.uniformUploads += now.uniforms - countedUploads_.uniforms;
+  counters_.textureUploadBytes += now.textureBytes - countedUploads_.textureBytes;
+  counters_.bufferUploadBytes += now.bufferBytes - countedUploads_.bufferBytes;
+  countedUploads_ = now;
+  return counters_;
+}
+
+void Encoder::beginFrame() {
+  *cache_ = Cache{};
+  if (context_.lost()) return;
+  if (!fullscreenTriangle_) {
+    constexpr float kCorners[] = {-1, -1, 3, -1, -1, 3};
+    Result<Buffer> buffer = Buffer::create(context_, BufferTarget::vertex, std::as_bytes(std::span(kCorners)),
+                                           BufferUsage::staticDraw);
+    if (buffer) fullscreenTriangle_ = std::move(*buffer);
+  }
+  const Functions& gl = context_.functions();
+  gl.disable(GL_DITHER);  // on at start; it would add noise to data stored in 8 bits
+  gl.disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
+  gl.disable(GL_SAMPLE_COVERAGE);
+  gl.frontFace(GL_CCW);
+  gl.depthRangef(0.0f, 1.0f);
+  gl.pixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.pixelStorei(GL_UNPACK_ALIGNMENT, 1);
+}
+
+void Encoder::bindFramebuffer(std::uint32_t name) {
+  if (cache_->bound.framebuffer == name) return;
+  context_.functions().bindFramebuffer(GL_FRAMEBUFFER, name);
+  cache_->bound.framebuffer = name;
+  if (cache_->countedFramebuffer != name) ++counters_.framebufferSwitches;
+  cache_->countedFramebuffer = name;
+}
+
+void Encoder::beginPass(const PassBegin& begin) {
+  if (context_.lost()) return;
+  Cache& cache = *cache_;
+  const Functions& gl = context_.functions();
+  cache.pass = begin.framebuffer;
+  dropStaleBindings();
+  bindFramebuffer(begin.framebuffer->name());
+  cache.viewport.set(gl, {begin.viewport.x, begin.viewport.y, begin.viewport.width, begin.viewport.height});
+
+  GLbitfield mask = 0;
+  if (begin.clear.color) {
+    const glm::vec4& color = *begin.clear.color;
+    cache.clearColor.set(gl, {color.x, color.y, color.z, color.w});
+    cache.colorMask.set(gl, {1, 1, 1, 1});
+    mask |= GL_COLOR_BUFFER_BIT;
+  }
+  if (begin.clear.depth) {
+    cache.clearDepth.set(gl, *begin.clear.depth);
+    cache.depthMask.set(gl, 1);
+    mask |= GL_DEPTH_BUFFER_BIT;
+  }
+  if (begin.clear.stencil) {
+    cache.clearStencil.set(gl, *begin.clear.stencil);
+    cache.stencilMaskFront.set(gl, 0xff);
+    cache.stencilMaskBack.set(gl, 0xff);
+    mask |= GL_STENCIL_BUFFER_BIT;
+  }
+  if (mask == 0) return;
+  if (begin.clearScissor) {
+    const Rect& rect = *begin.clearScissor;
+    cache.scissorBox.set(gl, {rect.x, rect.y, rect.width, rect.height});
+    cache.scissorTest.set(gl, 1);
+  } else {
+    cache.scissorTest.set(gl, 0);
+  }
+  gl.clear(mask);
+  ++counters_.clears;
+}
+
+void Encoder::endPass(const PassEnd& end) {
+  const Framebuffer* framebuffer = std::exchange(cache_->pass, nullptr);
+  if (context_.lost() || !framebuffer || !context_.capabilities().has(Capability::discard)) return;
+  const bool isDefault = framebuffer->name() == 0;  // whose attachments have other names
+  std::array<GLenum, 3> attachments{};
+  GLsizei count = 0;
+  const auto add = [&](bool wanted, GLenum defaultName, GLenum objectName) {
+    if (wanted) attachments[static_cast<std::size_t>(count++)] = isDefault ? defaultName : objectName;
+  };
+  add(end.discardColor, GL_COLOR_EXT, GL_COLOR_ATTACHMENT0);
+  add(end.discardDepth, GL_DEPTH_EXT, GL_DEPTH_ATTACHMENT);
+  add(end.discardStencil, GL_STENCIL_EXT, GL_STENCIL_ATTACHMENT);
+  if (count == 0) return;
+  dropStaleBindings();
+  bindFramebuffer(framebuffer->name());
+  context_.functions().discardFramebuffer(GL_FRAMEBUFFER, count, attachments.data());
+}
+
+void Encoder::useProgram(Program& program) {
+  if (context_.lost()) return;
+  cache_->wantedProgram = program.name();
+  dropStaleBindings();
+  bindProgram();
+}
+
+void Encoder::bindTextures(std::span<const TextureBinding> bindings) {
+  for (const TextureBinding& binding : bindings) {
+    if (binding.unit < 0 || binding.unit >= state::kTextureUnits || !binding.texture) continue;
+    cache_->wantedTextures[static_cast<std::size_t>(binding.unit)] = binding.texture->name();
+  }
+}
+
+/// Uploads and deletions since the last call may have moved any binding and freed any name.
+void Encoder::dropStaleBindings() {
+  Cache& cache = *cache_;
+  if (cache.boundRevision == context_.bindingRevision()) return;
+  cache.boundRevision = context_.bindingRevision();
+  cache.bound = {};
+  // Binding a deleted name would make a new, empty texture of it.
+  for (std::uint32_t& name : cache.wantedTextures) {
+    if (name != 0 && !context_.functions().isTexture(name)) name = 0;
+  }
+}
+
+void Encoder::bindProgram() {
+  Cache& cache = *cache_;
+  if (cache.wantedProgram == 0 || cache.bound.program == cache.wantedProgram) return;
+  context_.functions().useProgram(cache.wantedProgram);
+  cache.bound.program = cache.wantedProgram;
+  ++counters_.programSwitches;
+}
+
+void Encoder::bindWanted() {
+  Cache& cache = *cache_;
+  const Functions& gl = context_.functions();
+  dropStaleBindings();
+  if (cache.pass) bindFramebuffer(cache.pass->name());
+  bindProgram();
+  for (int unit = 0; unit < state::kTextureUnits; ++unit) {
+    const std::uint32_t wanted = cache.wantedTextures[static_cast<std::size_t>(unit)];
+    std::optional<std::uint32_t>& bound = cache.bound.textures[static_cast<std::size_t>(unit)];
+    if (wanted == 0 || bound == wanted) continue;
+    if (cache.bound.activeUnit != unit) gl.activeTexture(static_cast<GLenum>(GL_TEXTURE0 + unit));
+    cache.bound.activeUnit = unit;
+    gl.bindTexture(GL_TEXTURE_2D, wanted);
+    bound = wanted;
+  }
+}
+
+void Encoder::applyState(const DrawState& state) {
+  Cache& cache = *cache_;
+  const Functions& gl = context_.functions();
+  // Writing depth without a test needs the test on, with ALWAYS: a disabled test also disables the write.
+  const bool depthTest = state.depth.test != Compare::always || state.depth.write;
+  cache.depthTest.set(gl, depthTest);
+  if (depthTest) cache.depthFunc.set(gl, static_cast<GLint>(glOf(state.depth.test)));
+  cache.depthMask.set(gl, state.depth.write);
+  cache.cull.set(gl, state.cull != Cull::none);
+  if (state.cull != Cull::none) cache.cullFace.set(gl, state.cull == Cull::back ? GL_BACK : GL_FRONT);
+
+  cache.blend.set(gl, state.blend.enabled);
+  if (state.blend.enabled) {
+    const GLint equation = static_cast<GLint>(glOf(state.blend.equation));
+    const GLint source = static_cast<GLint>(glOf(state.blend.source));
+    const GLint destination = static_cast<GLint>(glOf(state.blend.destination));
+    cache.blendEquation.set(gl, {equation, equation});
+    cache.blendFunc.set(gl, {source, destination, source, destination});
+  }
+
+  cache.stencilTest.set(gl, state.stencil.enabled);
+  if (state.stencil.enabled) {
+    const StencilState& stencil = state.stencil;
+    const auto func = [&](const StencilFace& face) {
+      return std::array<GLint, 3>{static_cast<GLint>(glOf(face.test)), stencil.reference,
+                                  static_cast<GLint>(stencil.readMask)};
+    };
+    const auto ops = [](const StencilFace& face) {
+      return std::array<GLint, 3>{static_cast<GLint>(glOf(face.stencilFail)),
+                                  static_cast<GLint>(glOf(face.depthFail)),
+                                  static_cast<GLint>(glOf(face.pass))};
+    };
+    cache.stencilFuncFront.set(gl, func(stencil.front));
+    cache.stencilFuncBack.set(gl, func(stencil.back));
+    cache.stencilOpsFront.set(gl, ops(stencil.front));
+    cache.stencilOpsBack.set(gl, ops(stencil.back));
+    cache.stencilMaskFront.set(gl, static_cast<GLint>(stencil.writeMask));
+    cache.stencilMaskBack.set(gl, static_cast<GLint>(stencil.writeMask));
+  }
+
+  cache.colorMask.set(gl, {state.colorMask[0], state.colorMask[1], state.colorMask[2], state.colorMask[3]});
+  cache.scissorTest.set(gl, state.scissor.has_value());
+  if (state.scissor) {
+    cache.scissorBox.set(gl,
+                         {state.scissor->x, state.scissor->y, state.scissor->width, state.scissor->height});
+  }
+  cache.polygonOffsetFill.set(gl, state.polygonOffset.has_value());
+  if (state.polygonOffset) cache.polygonOffset.set(gl, {state.polygonOffset->x, state.polygonOffset->y});
+}
+
+void Encoder::applyAttributes(std::span<const AttributeBinding> attributes) {
+  Cache::Bindings& bound = cache_->bound;
+  const Functions& gl = context_.functions();
+  std::array<bool, state::kVertexAttributes> used{};
+  for (const AttributeBinding& binding : attributes) {
+    const auto index = static_cast<std::size_t>(binding.attribute);
+    used[index] = true;
+    const Cache::Attribute wanted{binding.buffer->name(), binding.components, binding.type,
+                                  binding.strideBytes, binding.offsetBytes};
+    if (bound.attributes[index] == wanted) continue;
+    if (bound.arrayBuffer != wanted.buffer) gl.bindBuffer(GL_ARRAY_BUFFER, wanted.buffer);
+    bound.arrayBuffer = wanted.buffer;
+    const AttributeEncoding encoding = glOf(binding.type);
+    gl.vertexAttribPointer(static_cast<GLuint>(index), wanted.components, encoding.type, encoding.normalized,
+                           wanted.strideBytes, bufferOffset(wanted.offsetBytes));
+    bound.attributes[index] = wanted;
+  }
+  for (std::size_t index = 0; index < used.size(); ++index) {
+    if (bound.attributeEnabled[index] == used[index]) continue;
+    bound.attributeEnabled[index] = used[index];
+    if (used[index]) {
+      gl.enableVertexAttribArray(static_cast<GLuint>(index));
+    } else {
+      gl.disableVertexAttribArray(static_cast<GLuint>(index));
+    }
+  }
+}
+
+void Encoder::draw(const DrawState& state, const Geometry& geometry) {
+  if (context_.lost() || geometry.count == 0) return;
+  const Functions& gl = context_.functions();
+  bindWanted();
+  applyState(state);
+  applyAttributes(geometry.attributes);
+  if (geometry.indexType == IndexType::none) {
+    gl.drawArrays(GL_TRIANGLES, static_cast<GLint>(geometry.first), static_cast<GLsizei>(geometry.count));
+  } else {
+    const std::uint32_t name = geometry.indices->name();
+    if (cache_->bound.indexBuffer != name) gl.bindBuffer(GL_ELEMENT_ARRAY_BUFFER, name);
+    cache_->bound.indexBuffer = name;
+    const bool wide = geometry.indexType == IndexType::uint32;
+    gl.drawElements(GL_TRIANGLES, static_cast<GLsizei>(geometry.count),
+                    wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT,
+                    bufferOffset(geometry.first * (wide ? 4 : 2)));
+  }
+  ++counters_.draws;
+  counters_.triangles += geometry.count / 3;
+}
+
+void Encoder::drawFullscreen(const DrawState& state) {
+  if (context_.lost() || !fullscreenTriangle_) return;
+  const AttributeBinding corner{
+      VertexAttribute::position, &fullscreenTriangle_, 2, AttributeType::float32, 8, 0};
+  Geometry geometry;
+  geometry.attributes = std::span(&corner, 1);
+  geometry.count = 3;
+  draw(state, geometry);
+}
+
+void Encoder::readPixels(const Framebuffer& framebuffer, const Rect& rect, std::uint8_t* rgba) {
+  if (context_.lost()) return;
+  const Functions& gl = context_.functions();
+  dropStaleBindings();
+  bindFramebuffer(framebuffer.name());
+  gl.pixelStorei(GL_PACK_ALIGNMENT, 1);
+  gl.readPixels(rect.x, rect.y, rect.width, rect.height, GL_RGBA, GL_UNSIGNED_BYTE, rgba);
+}
+
+void Encoder::finish() {
+  if (!context_.lost()) context_.functions().finish();
+}
+
+}  // namespace halfshadow::gl

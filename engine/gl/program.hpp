@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Linked programs and their cache. Uniforms are found by a hash made at compile time, never by string at
+/// a draw.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <glm/glm.hpp>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/error.hpp"
+#include "gl/objects.hpp"
+
+namespace halfshadow::gl {
+
+/// FNV-1a of a uniform's name. Array uniforms use the name without "[0]".
+struct UniformKey {
+  std::uint32_t hash = 0;
+  consteval UniformKey(const char* name) : hash(hashOf(name)) {}
+  static constexpr std::uint32_t hashOf(std::string_view name) {
+    std::uint32_t h = 2166136261u;
+    for (const char c : name) h = (h ^ static_cast<std::uint8_t>(c)) * 16777619u;
+    return h;
+  }
+};
+
+/// Vertex attributes have fixed locations, the same in every program.
+enum class VertexAttribute : std::uint32_t {
+  position = 0,
+  normal = 1,
+  texcoord = 2,
+  extra0 = 3,
+  extra1 = 4,
+  extra2 = 5
+};
+/// "a_position", "a_normal", "a_texcoord", "a_extra0" …
+const char* attributeName(VertexAttribute attribute);
+
+/// Setting a uniform the program lacks is ignored (variants drop what they do not use). Values are cached:
+/// an unchanged value is not sent again. The encoder makes the program current.
+class Program {
+ public:
+  /// The active samplers of `samplerNames` get units 0, 1, 2 … in that order at link time; active samplers it
+  /// does not name follow. Errors: shaderFailed with the driver's log and `label`.
+  static Result<Program> link(Context& context, std::string_view vertexSource,
+                              std::string_view fragmentSource, const std::vector<std::string>& samplerNames,
+                              std::string_view label);
+  std::uint32_t name() const { return object_.name(); }
+  const std::string& label() const { return label_; }
+  bool has(UniformKey key) const { return find(key) != nullptr; }
+  /// Unit of a sampler, −1 when the program has none of that name. Use it as TextureBinding::unit.
+  int samplerUnit(UniformKey key) const;
+
+  void set(Context& context, UniformKey key, float value);
+  void set(Context& context, UniformKey key, const glm::vec2& value);
+  void set(Context& context, UniformKey key, const glm::vec3& value);
+  void set(Context& context, UniformKey key, const glm::vec4& value);
+  void set(Context& context, UniformKey key, const glm::mat3& value);
+  void set(Context& context, UniformKey key, const glm::mat4& value);
+  /// `count` at least 1; elements past the array's end are ignored.
+  void setArray(Context& context, UniformKey key, const glm::vec4* values, int count);
+  void setArray(Context& context, UniformKey key, const glm::vec2* values, int count);
+
+ private:
+  struct Uniform {
+    std::uint32_t hash = 0;
+    int location = -1;
+    std::uint32_t type = 0;  ///< the GL type
+    int arraySize = 1;
+    int samplerUnit = -1;
+    std::vector<float> last;
+  };
+  void reflect(Context& context, const std::vector<std::string>& samplerNames);
+  const Uniform* find(UniformKey key) const;
+  const Uniform* findUniform(std::uint32_t hash) const;
+  Uniform* findUniform(std::uint32_t hash);
+  /// The uniform when it exists and its last value differs (then updated), else null.
+  Uniform* changed(Context& context, UniformKey key, const float* values, std::size_t count);
+  Object<ObjectKind::program> object_;
+  std::vector<Uniform> uniforms_;
+  std::string label_;
+};
+
+/// Text of a shader file by its name below shaders_es2/ ("pcf.frag"), or null.
+using ShaderSourceProvider = std::function<const char*(std::string_view fileName)>;
+
+/// `defines` are "NAME" or "NAME VALUE" lines put in front, in order.
+struct ProgramVariant {
+  std::string vertexFile;
+  std::string fragmentFile;
+  std::vector<std::string> defines;
+  auto operator<=>(const ProgramVariant&) const = default;
+};
+
+/// The source of one shader stage, told by the file name's end (".frag" or ".vert"). In this order: version,
+/// extension lines, HS_NO_HIGHP when the context lacks fragment highp, `defines`, the precision lines, the
+/// file with `#include "file.glsl"` expanded (one level). The precision lines define, for both stages,
+///   HS_HIGHP   the best precision of this stage (in a fragment shader mediump under HS_NO_HIGHP);
+///   HS_SHARED  the precision of uniforms declared in both stages, the same in both, as ES 2.0 demands.
+/// Extension lines: derivatives whenever the context has them (then HS_DERIVATIVES is defined); framebuffer
+/// fetch and texture lod only when `defines` contains HS_USE_FETCH or HS_USE_LOD, and the former defines
+/// HS_LAST_COLOR, the pixel's current color. Lines in the driver's log are SOURCE:LINE with source 0 the file
+/// and 1, 2, … its includes in order.
+/// Errors: shaderFailed (file absent, include malformed, absent or nested; capability of HS_USE_… missing).
+Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::string_view fileName,
+                                   const std::vector<std::string>& defines, const Capabilities& capabilities);
+
+/// Names of `uniform … sampler2D` declarations in order of appearance, each once; comments are skipped.
+std::vector<std::string> samplerNamesOf(std::string_view source);
+
+class ProgramCache {
+ public:
+  ProgramCache(Context& context, ShaderSourceProvider provider);
+  /// Linked on first use, kept until clear(). The pointer stays valid until then. Errors: shaderFailed with
+  /// the driver's log and the variant.
+  Result<Program*> get(const ProgramVariant& variant);
+  void clear();
+  std::size_t size() const { return programs_.size(); }
+
+ private:
+  Context& context_;
+  ShaderSourceProvider provider_;
+  std::map<ProgramVariant, std::unique_ptr<Program>> programs_;
+};
+
+}  // namespace halfshadow::gl
