@@ -24,11 +24,14 @@ struct GltfOptions {
 /// named after its node; mirrored transforms are unmirrored by reversing the winding. Points and lines are
 /// skipped with a note, as are images that cannot be decoded.
 ///
-/// Extras on nodes: {"halfshadow": {"casts": false, "receives": false}}. Lights (KHR_lights_punctual) become
+/// Materials: base colour factor and image (PNG or JPEG; texture coordinates as in the file, v downwards).
+///
+/// Extras on nodes: {"halfshadow": {"casts": false, "receives": false}}, also for the
+/// nodes below unless they say otherwise. Lights (KHR_lights_punctual) become
 /// rectangles of full side lengths [w, h] or one number for both from {"halfshadow": {"size": …}} in the
 /// node's or the light's extras, in world units, else a point light; they stand at their node and are aimed
 /// along its -Z. A directional light is placed on its axis through the centre of the bounds, 3 bounding radii
-/// away from it.
+/// away from it. Intensities are relative to the file's brightest light.
 ///
 /// Errors: fileNotFound; fileMalformed (the sentence names the file, the element and the fix: bad JSON,
 /// truncated or overrun buffers, wrong accessor types or counts, indices out of range, NaN or infinite

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Primitives of glTF meshes as checked triangle meshes (internal).
+#pragma once
+
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "scene/mesh.hpp"
+#include "scenes/gltf_file.hpp"
+
+namespace halfshadow::scenes {
+
+/// How a primitive is to be built.
+struct PrimitiveRequest {
+  int mesh = 0;
+  std::size_t primitive = 0;
+  const std::vector<double>* morphWeights = nullptr;  ///< null = the mesh's own
+  const std::vector<glm::dmat4>* jointMatrices =
+      nullptr;  ///< null = not skinned; else positions come out in world space
+  /// The transform that will be applied mirrors: x is negated and the winding reversed here instead, so that
+  /// the mesh is wound outward in its own space as well as in the world.
+  bool isMirrored = false;
+};
+
+/// Null (with a note) for points, lines and primitives without a triangle that has an area.
+Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf::Model& model,
+                                                                 const PrimitiveRequest& request,
+                                                                 std::vector<std::string>& notes);
+
+}  // namespace halfshadow::scenes
