@@ -97,7 +97,7 @@ Shape capsuleShape(const glm::dvec3& a, const glm::dvec3& b, double radius) {
   constexpr std::uint32_t kSides = 16, kCapRings = 5;
   const glm::dvec3 w = glm::normalize(b - a);
   const glm::dvec3 u =
-      glm::normalize(glm::cross(w, std::abs(w.x) < 0.9 ? glm::dvec3{1, 0, 0} : glm::dvec3{0, 1, 0}));
+      glm::normalize(glm::cross(w, std::abs(w.y) < 0.9 ? glm::dvec3{0, 1, 0} : glm::dvec3{1, 0, 0}));
   const glm::dvec3 v = glm::cross(w, u);
   Shape shape;
   const std::uint32_t first = shape.addVertex(a - radius * w);

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "scenes/validate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "gltf_writer.hpp"
+#include "scenes/builtin_scenes.hpp"
+
+namespace halfshadow::scenes {
+namespace {
+
+bool anyContains(const std::vector<std::string>& sentences, std::string_view words) {
+  return std::any_of(sentences.begin(), sentences.end(),
+                     [&](const std::string& s) { return s.find(words) != std::string::npos; });
+}
+
+TEST(Validate, ACleanSceneHasNoWarnings) {
+  const ValidationReport report = validateScene(*makeBuiltinScene("spheres27"));
+  EXPECT_EQ(report.casters, 27u);
+  EXPECT_EQ(report.openCasters, 0u);
+  EXPECT_EQ(report.triangles, 27u * 762 + 2);
+  EXPECT_TRUE(report.warnings.empty());
+  EXPECT_EQ(report.objects[0].weldedVertices, 383u);
+  // 762 triangles inscribed in a sphere of radius 0.42 (volume 0.3103): a few per cent less.
+  EXPECT_NEAR(report.objects[0].signedVolumeWorld, 0.3034, 0.001);
+  EXPECT_TRUE(report.objects[0].warnings.empty());
+}
+
+TEST(Validate, NamesOpenCastersAndInsideOutOnes) {
+  const ValidationReport sheets = validateScene(*makeBuiltinScene("sheets"));
+  EXPECT_EQ(sheets.openCasters, 40u);
+  EXPECT_TRUE(anyContains(sheets.objects[0].warnings, "open"));
+
+  testing::GltfWriter writer;
+  const int position =
+      writer.addAccessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}, testing::kFloat, "VEC3", 3);
+  const int indices =
+      writer.addAccessor(std::vector<std::uint8_t>{0, 1, 2, 0, 3, 1, 0, 2, 3, 1, 3, 2, 1, 1, 2},
+                         testing::kUnsignedByte, "SCALAR", 1);
+  writer.addPrimitive({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+  const auto loaded = writer.load();
+  ASSERT_TRUE(loaded.ok());
+  const ValidationReport report = validateScene(*loaded);
+  EXPECT_TRUE(anyContains(report.objects[0].warnings, "inside out"));
+  EXPECT_EQ(report.objects[0].degenerateDropped, 1u);
+}
+
+TEST(Validate, WarnsOfExtremeScale) {
+  EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@scale=1e6")).warnings, "radius"));
+  EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@shift=1e7")).objects[0].warnings, "origin"));
+}
+
+}  // namespace
+}  // namespace halfshadow::scenes
