@@ -91,11 +91,7 @@ Result<std::unique_ptr<Context>> Context::create(const GetProcAddress& getProcAd
 
   {
     const HostStateGuard guard(*context, HostStatePolicy::restore);
-    probeCapabilities(*context, capabilities);
-  }
-  for (const Capability forced : options.forcedOff) {
-    capabilities.states[static_cast<std::size_t>(forced)] = {ProbeOutcome::forcedOff,
-                                                             "forced off by the caller"};
+    probeCapabilities(*context, capabilities, options.forcedOff);
   }
   context->uploads_ = {};
   return context;

@@ -213,6 +213,10 @@ void Encoder::beginPass(const PassBegin& begin) {
   ++counters_.clears;
 }
 
+void Encoder::setViewport(const Rect& viewport) {
+  cache_->viewport.set(context_.functions(), {viewport.x, viewport.y, viewport.width, viewport.height});
+}
+
 void Encoder::endPass(const PassEnd& end) {
   const Framebuffer* framebuffer = std::exchange(cache_->pass, nullptr);
   if (context_.lost() || !framebuffer || !context_.capabilities().has(Capability::discard)) return;

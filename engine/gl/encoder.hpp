@@ -130,6 +130,8 @@ class Encoder {
   void beginFrame();
   void beginPass(const PassBegin& begin);
   void endPass(const PassEnd& end);
+  /// Another part of the pass's framebuffer, for several images in one target.
+  void setViewport(const Rect& viewport);
 
   /// Makes the program current; uniforms may then be set on it through `program.set(context, …)`.
   void useProgram(Program& program);

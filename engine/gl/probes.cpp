@@ -60,7 +60,8 @@ class Prober {
 
 }  // namespace
 
-void probeCapabilities(Context& context, Capabilities& capabilities) {
+void probeCapabilities(Context& context, Capabilities& capabilities,
+                       const std::vector<Capability>& forcedOff) {
   // Errors that the host left are not the probes'.
   static_cast<void>(context.checkErrors("before the probes").ok());
   ProbeBench bench(context);
@@ -85,7 +86,9 @@ void probeCapabilities(Context& context, Capabilities& capabilities) {
     prober.note(Capability::highp, bitsText, highp ? ProbeFailure() : "only " + bitsText);
   }
   const char* best = highp ? "highp" : "mediump";
-  probes.varyingMantissaBits = measureVaryingMantissaBits(bench, best);
+  const bool highpForcedOff =
+      std::find(forcedOff.begin(), forcedOff.end(), Capability::highp) != forcedOff.end();
+  probes.varyingMantissaBits = measureVaryingMantissaBits(bench, highpForcedOff ? "mediump" : best);
   probes.byteRounding = measureByteRounding(bench, best);
 
   prober.decide(
@@ -123,6 +126,9 @@ void probeCapabilities(Context& context, Capabilities& capabilities) {
              failure});
   }
   static_cast<void>(context.checkErrors("probes").ok());
+  for (const Capability forced : forcedOff) {
+    prober.state(forced) = {ProbeOutcome::forcedOff, "forced off by the caller"};
+  }
 }
 
 }  // namespace halfshadow::gl

@@ -33,6 +33,12 @@ std::array<GLint, sizeof...(parameters)> integerEach(const Functions& gl) {
   return {integers<parameters, 1>(gl)[0]...};
 }
 
+/// A mask of all ones, which is the initial value, does not fit a GLint: some drivers answer with the largest
+/// one.
+constexpr GLint stencilMaskOf(GLint answered) {
+  return answered == 0x7fffffff ? -1 : answered;
+}
+
 struct ActiveTexture {
   using Type = GLint;
   static constexpr const char* kName = "active texture unit";
@@ -244,17 +250,22 @@ struct DepthRange {
   static void set(const Functions& gl, const Type& v) { gl.depthRangef(v[0], v[1]); }
 };
 
+/// Drivers clamp the reference to the bits of the bound framebuffer, some when it is set, some when it is
+/// read.
 template <GLenum face>
 struct StencilFunc {
   using Type = std::array<GLint, 3>;  ///< function, reference, read mask
   static constexpr const char* kName = "stencil function";
   static Type initial() { return {GL_ALWAYS, 0, -1}; }
   static Type get(const Functions& gl) {
+    Type value;
     if constexpr (face == GL_FRONT) {
-      return integerEach<GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK>(gl);
+      value = integerEach<GL_STENCIL_FUNC, GL_STENCIL_REF, GL_STENCIL_VALUE_MASK>(gl);
     } else {
-      return integerEach<GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK>(gl);
+      value = integerEach<GL_STENCIL_BACK_FUNC, GL_STENCIL_BACK_REF, GL_STENCIL_BACK_VALUE_MASK>(gl);
     }
+    value[2] = stencilMaskOf(value[2]);
+    return value;
   }
   static void set(const Functions& gl, const Type& v) {
     gl.stencilFuncSeparate(face, static_cast<GLenum>(v[0]), v[1], static_cast<GLuint>(v[2]));
@@ -286,7 +297,8 @@ struct StencilWriteMask {
   static constexpr const char* kName = "stencil write mask";
   static Type initial() { return -1; }
   static Type get(const Functions& gl) {
-    return integers < face == GL_FRONT ? GL_STENCIL_WRITEMASK : GL_STENCIL_BACK_WRITEMASK, 1 > (gl)[0];
+    constexpr GLenum kParameter = face == GL_FRONT ? GL_STENCIL_WRITEMASK : GL_STENCIL_BACK_WRITEMASK;
+    return stencilMaskOf(integers<kParameter, 1>(gl)[0]);
   }
   static void set(const Functions& gl, Type value) {
     gl.stencilMaskSeparate(face, static_cast<GLuint>(value));
@@ -367,19 +379,18 @@ struct MakeList;
 template <int... units, int... attributes>
 struct MakeList<std::integer_sequence<int, units...>, std::integer_sequence<int, attributes...>> {
   // Captured first to last, set last to first: the selectors (active unit, array buffer) come first because
-  // the entries that follow them disturb them.
-  using Type =
-      std::tuple<ActiveTexture, TextureBinding2D<units>..., ArrayBuffer,
-                 AttributeArray<static_cast<GLuint>(attributes)>..., ElementArrayBuffer, FramebufferBinding,
-                 RenderbufferBinding, CurrentProgram, Viewport, ScissorBox, Enable<GL_BLEND>,
-                 Enable<GL_CULL_FACE>, Enable<GL_DEPTH_TEST>, Enable<GL_DITHER, true>,
-                 Enable<GL_POLYGON_OFFSET_FILL>, Enable<GL_SAMPLE_ALPHA_TO_COVERAGE>,
-                 Enable<GL_SAMPLE_COVERAGE>, Enable<GL_SCISSOR_TEST>, Enable<GL_STENCIL_TEST>, BlendFunc,
-                 BlendEquation, BlendColor, ColorMask, DepthFunc, DepthMask, DepthRange,
-                 StencilFunc<GL_FRONT>, StencilFunc<GL_BACK>, StencilOps<GL_FRONT>, StencilOps<GL_BACK>,
-                 StencilWriteMask<GL_FRONT>, StencilWriteMask<GL_BACK>, CullFaceMode, FrontFace,
-                 PolygonOffset, SampleCoverage, ClearColor, ClearDepth, ClearStencil,
-                 PixelStore<GL_PACK_ALIGNMENT>, PixelStore<GL_UNPACK_ALIGNMENT>>;
+  // the entries that follow them disturb them. The framebuffer comes last: drivers clamp stencil values to
+  // the bits of the bound one.
+  using Type = std::tuple<
+      ActiveTexture, TextureBinding2D<units>..., ArrayBuffer,
+      AttributeArray<static_cast<GLuint>(attributes)>..., ElementArrayBuffer, CurrentProgram, Viewport,
+      ScissorBox, Enable<GL_BLEND>, Enable<GL_CULL_FACE>, Enable<GL_DEPTH_TEST>, Enable<GL_DITHER, true>,
+      Enable<GL_POLYGON_OFFSET_FILL>, Enable<GL_SAMPLE_ALPHA_TO_COVERAGE>, Enable<GL_SAMPLE_COVERAGE>,
+      Enable<GL_SCISSOR_TEST>, Enable<GL_STENCIL_TEST>, BlendFunc, BlendEquation, BlendColor, ColorMask,
+      DepthFunc, DepthMask, DepthRange, StencilFunc<GL_FRONT>, StencilFunc<GL_BACK>, StencilOps<GL_FRONT>,
+      StencilOps<GL_BACK>, StencilWriteMask<GL_FRONT>, StencilWriteMask<GL_BACK>, CullFaceMode, FrontFace,
+      PolygonOffset, SampleCoverage, ClearColor, ClearDepth, ClearStencil, PixelStore<GL_PACK_ALIGNMENT>,
+      PixelStore<GL_UNPACK_ALIGNMENT>, RenderbufferBinding, FramebufferBinding>;
 };
 
 /// All of it.

@@ -15,7 +15,7 @@ Process openProcess() {
   Process process;
   HeadlessOptions options;
   const char* driver = std::getenv("HALFSHADOW_TEST_DRIVER");
-  options.driver = driver ? driver : "llvmpipe";
+  options.driver = driver ? driver : "default";
   Result<std::unique_ptr<HeadlessContext>> headless = createHeadless(options);
   if (!headless) {
     process.failure = headless.error().message;

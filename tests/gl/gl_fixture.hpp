@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
 /// For tests that render: one headless context and one gl::Context per process, on the driver named by
-/// HALFSHADOW_TEST_DRIVER (default "llvmpipe"). After each test: no GL error, no leaked object.
+/// HALFSHADOW_TEST_DRIVER (else "default"). After each test: no GL error, no leaked object.
 #pragma once
 
 #include <gtest/gtest.h>
