@@ -93,6 +93,25 @@ bool tangentPlaneSeparates(const Shapes& shapes, const scene::AreaLight& light) 
   return false;
 }
 
+// A witness that settles most pairs that do meet: the ray from the light's centre through the caster's.
+bool centralRayMeets(const glm::dvec3& lightCenter, const glm::dvec3& casterCenter,
+                     const scene::Bounds& receiver) {
+  double low = 1.0,
+         high = std::numeric_limits<double>::infinity();  // multiples of the step from light to caster
+  for (int axis = 0; axis < 3; ++axis) {
+    const double step = casterCenter[axis] - lightCenter[axis];
+    const double toLow = receiver.low[axis] - lightCenter[axis],
+                 toHigh = receiver.high[axis] - lightCenter[axis];
+    if (step == 0.0) {
+      if (toLow > 0.0 || toHigh < 0.0) return false;
+      continue;
+    }
+    low = std::max(low, std::min(toLow / step, toHigh / step));
+    high = std::min(high, std::max(toLow / step, toHigh / step));
+  }
+  return low <= high;
+}
+
 }  // namespace
 
 bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& casterWorld,
@@ -107,6 +126,11 @@ bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& caste
   const double slack = kSlack * scale;
   if (caster.high.z <= -slack || receiver.high.z <= -slack) return false;  // behind the light's plane
   if (receiver.high.z < caster.low.z - slack) return false;  // nearer to the light than the caster
+  const glm::dvec3 casterCenter = casterWorld.center();
+  if (space.lightFromWorld(casterCenter).z > 0.0 &&
+      centralRayMeets(light.centerWorld, casterCenter, receiverWorld)) {
+    return true;
+  }
   const double casterLow = std::max(0.0, caster.low.z - slack);
   const double casterHigh = std::min(caster.high.z, receiver.high.z) + slack;
   StretchRange stretch;
