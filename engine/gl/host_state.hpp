@@ -18,7 +18,8 @@ enum class HostStatePolicy {
 };
 
 /// Captures on construction (policy restore), acts on destruction. One list of state types (state_list.hpp)
-/// drives capture, restore, defaults and the hostile-host test.
+/// drives capture, restore, defaults and the hostile-host test. The list is OpenGL ES 2.0: a host on a later
+/// version unbinds its vertex array object, pixel buffers and separate read framebuffer before the frame.
 class HostStateGuard {
  public:
   HostStateGuard(Context& context, HostStatePolicy policy);

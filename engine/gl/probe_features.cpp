@@ -99,9 +99,11 @@ ProbeFailure probeDepthTexture(ProbeBench& bench) {
   return {};
 }
 
-/// Window depths 2^-20 apart: 16 bits cannot hold both, 24 can.
+/// Window depths 2^-20 apart: 16 bits cannot hold both, 24 can. They lie at a quarter of a 16-bit step, where
+/// neither truncation nor rounding puts a border between them.
 ProbeFailure probeDepth24(ProbeBench& bench, bool depthTextures, bool highp) {
   constexpr float kStep = 1.0f / 1048576.0f;
+  constexpr float kBase = 0.5f - 0.25f / 65535.0f;
   Context& context = bench.context();
   Result<Program> paint = bench.program(kPaint);
   if (!paint) return paint.error().message;
@@ -114,12 +116,12 @@ ProbeFailure probeDepth24(ProbeBench& bench, bool depthTextures, bool highp) {
     if (!framebuffer) return framebuffer.error().message;
     bench.clear(*framebuffer);
     const Rect all{0, 0, 2, 1};
-    setColorAndDepth(bench, *paint, glm::vec4(0.0f), clipOf(0.5f));
+    setColorAndDepth(bench, *paint, glm::vec4(0.0f), clipOf(kBase));
     bench.draw(*framebuffer, *paint, all, kWriteDepth);
     const DrawState less{.depth = {Compare::less, false}};
-    setColorAndDepth(bench, *paint, glm::vec4(1, 0, 0, 1), clipOf(0.5f) + 2.0f * kStep);
+    setColorAndDepth(bench, *paint, glm::vec4(1, 0, 0, 1), clipOf(kBase) + 2.0f * kStep);
     bench.draw(*framebuffer, *paint, {0, 0, 1, 1}, less);
-    setColorAndDepth(bench, *paint, glm::vec4(0, 1, 0, 1), clipOf(0.5f) - 2.0f * kStep);
+    setColorAndDepth(bench, *paint, glm::vec4(0, 1, 0, 1), clipOf(kBase) - 2.0f * kStep);
     bench.draw(*framebuffer, *paint, {1, 0, 1, 1}, less);
     const ProbeBench::Pixel behind = bench.read(*framebuffer, 0, 0), before = bench.read(*framebuffer, 1, 0);
     if (behind[0] != 0 || before[1] != 255) return "depths 2^-20 apart are not told apart by the depth test";
@@ -134,20 +136,20 @@ ProbeFailure probeDepth24(ProbeBench& bench, bool depthTextures, bool highp) {
   Result<Framebuffer> framebuffer = Framebuffer::create(context, {.color = &*color, .depthTexture = &*depth});
   if (!framebuffer) return framebuffer.error().message;
   Result<Program> show = bench.program(
-      "precision highp float;\nuniform highp sampler2D u_depth;\nuniform float u_half; uniform float "
+      "precision highp float;\nuniform highp sampler2D u_depth;\nuniform float u_base; uniform float "
       "u_scale;\n"
       "void main() {\n"
       "  float d = texture2D(u_depth, gl_FragCoord.xy / 4.0).r;\n"
-      "  gl_FragColor = vec4((d - u_half) * u_scale);\n"
+      "  gl_FragColor = vec4((d - u_base) * u_scale);\n"
       "}\n");
   if (!show) return show.error().message;
   bench.clear(*framebuffer);
   for (int i = 0; i < 4; ++i) {
-    setColorAndDepth(bench, *paint, glm::vec4(1.0f), clipOf(0.5f) + 2.0f * kStep * static_cast<float>(i));
+    setColorAndDepth(bench, *paint, glm::vec4(1.0f), clipOf(kBase) + 2.0f * kStep * static_cast<float>(i));
     bench.draw(*framebuffer, *paint, {i, 0, 1, 4}, kWriteDepth);
   }
   bench.encoder().useProgram(*show);
-  show->set(context, "u_half", 0.5f);
+  show->set(context, "u_base", kBase);
   show->set(context, "u_scale", 0.25f / kStep);
   const TextureBinding binding{show->samplerUnit("u_depth"), &*depth};
   bench.encoder().bindTextures(std::span(&binding, 1));
