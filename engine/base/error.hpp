@@ -11,15 +11,9 @@
 #include <utility>
 #include <variant>
 
-#include "halfshadow/error_codes.h"
+#include "halfshadow/types.hpp"
 
 namespace halfshadow {
-
-enum class ErrorCode : int {
-#define HALFSHADOW_ERROR_ENUM(name, NAME, text) name,
-  HALFSHADOW_ERROR_LIST(HALFSHADOW_ERROR_ENUM)
-#undef HALFSHADOW_ERROR_ENUM
-};
 
 /// Identifier of a code, for logs and JSON, e.g. "invalidMesh".
 std::string_view errorName(ErrorCode code);

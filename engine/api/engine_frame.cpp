@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+#include <cmath>
+
+#include "api/engine_state.hpp"
+#include "api/receiver_reach.hpp"
+
+namespace halfshadow {
+namespace {
+glm::dvec3 toVector(const double v[3]) { return {v[0], v[1], v[2]}; }
+
+scene::Camera toCamera(const CameraDesc& desc) {
+  return {.eyeWorld = toVector(desc.eye),
+          .targetWorld = toVector(desc.target),
+          .up = toVector(desc.up),
+          .verticalFovRadians = desc.verticalFovRadians,
+          .nearDistance = desc.nearDistance,
+          .farDistance = desc.farDistance};
+}
+
+Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
+  const int limit = std::min(limits.textureSize, limits.renderbufferSize);
+  if (target.width <= 0 || target.height <= 0) {
+    return Error{ErrorCode::invalidArgument, "the target's size is " + std::to_string(target.width) + "x" +
+                                                 std::to_string(target.height) + "; give positive numbers"};
+  }
+  if (target.kind == TargetDesc::Kind::engine && std::max(target.width, target.height) > limit) {
+    return Error{ErrorCode::invalidArgument, "the target's size " + std::to_string(target.width) + "x" +
+                                                 std::to_string(target.height) + " is above this device's limit of " +
+                                                 std::to_string(limit)};
+  }
+  return {};
+}
+
+techniques::DrawItem drawItem(const EngineObject& object) {
+  return {.mesh = &object.gpu,
+          .casts = object.casts,
+          .worldFromObject = object.worldFromObject,
+          .baseColor = object.baseColor,
+          .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr};
+}
+
+techniques::ReceiverOutput receiverOutput(Output output) {
+  switch (output) {
+    case Output::shaded: return techniques::ReceiverOutput::shaded;
+    case Output::visibility: return techniques::ReceiverOutput::visibility;
+    case Output::visibility16: return techniques::ReceiverOutput::visibility16;
+    case Output::taps: return techniques::ReceiverOutput::taps;
+  }
+  return techniques::ReceiverOutput::visibility;
+}
+
+void appendPoints(const EngineObject& object, std::vector<glm::dvec3>& points) {
+  for (const std::uint32_t index : object.mesh.indices) {
+    // Only the first use of a vertex matters; consecutive triangles share most, so a cheap filter suffices.
+    points.push_back(glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh.positions[index]), 1.0)));
+  }
+}
+
+framegraph::ClearValue clearValueOf(const RenderDesc& desc) {
+  framegraph::ClearValue clear;
+  for (int i = 0; i < 4; ++i) {
+    clear.color[i] = desc.output == Output::shaded ? desc.clearColor[i] : (desc.output == Output::taps ? 0.0f : 1.0f);
+  }
+  return clear;
+}
+}  // namespace
+
+Status Engine::State::declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
+                                   const std::vector<const EngineObject*>& sceneObjects, std::uint64_t sceneRevision,
+                                   const RenderDesc& desc) {
+  const scene::AreaLight& light = lights[index];
+  FrameLight& target = frame.lights[index];
+  target.shadingInputs = {.light = &light, .eyeWorld = toVector(desc.camera.eye)};
+  LightCache& cache = lightCaches[index];
+  const int mapSize = settings->integer("map_size");
+  scene::Bounds casterBounds;
+  for (const std::uint32_t i : plan.casters) {
+    target.casters.push_back(drawItem(*sceneObjects[i]));
+    casterBounds.include(scene::transformed(sceneObjects[i]->worldFromObject, sceneObjects[i]->boundsObject));
+  }
+  target.shadingInputs.referenceDistance =
+      casterBounds.empty() ? std::max(glm::length(light.centerWorld - toVector(desc.camera.target)), 1e-6)
+                           : std::max(glm::length(light.centerWorld - casterBounds.center()), 1e-6);
+  if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
+    cache.casterPointsWorld.clear();
+    for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
+    cache.fit = planner::fitLight(light, cache.casterPointsWorld, {.mapSize = mapSize});
+    cache.key = plan.contentKey;
+    cache.mapSize = mapSize;
+  }
+  techniques::Technique* used = technique;
+  if (!plan.active || cache.fit.empty || plan.casters.empty()) {
+    frame.graph.noteSkipped("light " + std::to_string(index) + " shadows",
+                            std::string(planner::skipText(planner::SkipReason::noCasters)));
+    for (const auto& candidate : techniques) {
+      if (candidate->info().id == "none") used = candidate.get();
+    }
+  }
+  double farthest = 0.0;
+  for (const EngineObject* object : sceneObjects) {
+    if (!object->receives) continue;
+    if (!object->casts) target.shadowlessReceivers.push_back(drawItem(*object));
+    farthest = std::max(farthest, api::receiverFarDistance(
+                                      cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
+  }
+  const techniques::LightFrame lightFrame{.capabilities = context->capabilities(),
+                                          .context = *context,
+                                          .programs = *programs,
+                                          .shared = shared,
+                                          .settings = *settings,
+                                          .graph = frame.graph,
+                                          .view = frame.view,
+                                          .light = light,
+                                          .lightIndex = static_cast<int>(index),
+                                          .fit = cache.fit,
+                                          .casterPointsWorld = cache.casterPointsWorld,
+                                          .receiverFarDistance = farthest,
+                                          .casters = target.casters,
+                                          .receivers = frame.receivers,
+                                          .shadowlessReceivers = target.shadowlessReceivers,
+                                          .contentKey = plan.contentKey,
+                                          .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision)};
+  auto shading = used->declare(lightFrame);
+  if (!shading) return shading.error();
+  target.shading = std::move(shading).value();
+  const techniques::ReceiverOutput output = receiverOutput(desc.output);
+  auto plain = techniques::receiverPrograms(*programs, target.shading, output, false);
+  if (!plain) return plain.error();
+  target.programs = target.texturedPrograms = *plain;
+  const bool textured = std::ranges::any_of(frame.receivers, [](const auto& item) { return item.baseColorTexture != nullptr; });
+  if (textured && desc.output == Output::shaded) {
+    auto made = techniques::receiverPrograms(*programs, target.shading, output, true);
+    if (!made) return made.error();
+    target.texturedPrograms = *made;
+  }
+  return {};
+}
+
+void Engine::State::declareReceiverPass(Frame& frame, const RenderDesc& desc) {
+  using framegraph::AttachmentPoint;
+  framegraph::PassDesc pass{.name = desc.output == Output::shaded ? "receivers, shaded" : "receivers, visibility",
+                            .stage = framegraph::PassStage::scene};
+  const framegraph::ClearValue clear = clearValueOf(desc);
+  const TargetDesc& target = desc.target;
+  if (target.kind == TargetDesc::Kind::host) {
+    frame.color = frame.graph.importTarget("host target", {target.framebuffer, target.x, target.y, target.width, target.height});
+    pass.writes = {{.resource = frame.color, .point = AttachmentPoint::color, .clear = clear},
+                   {.resource = frame.color, .point = AttachmentPoint::depth, .clear = clear}};
+  } else {
+    frame.color = frame.graph.addResource({.name = "output", .width = target.width, .height = target.height,
+                                           .lifetime = framegraph::Lifetime::persistent});
+    const auto depth = frame.graph.addResource({.name = "output depth", .width = target.width, .height = target.height,
+                                                .format = framegraph::Format::depth24,
+                                                .storage = framegraph::Storage::renderbuffer});
+    pass.writes = {{.resource = frame.color, .point = AttachmentPoint::color, .clear = clear},
+                   {.resource = depth, .point = AttachmentPoint::depth, .clear = clear}};
+  }
+  frame.graph.markOutput(frame.color);
+  // A single-image output shows the first light only.
+  const std::size_t drawn = desc.output == Output::visibility ? frame.lights.size() : std::min<std::size_t>(frame.lights.size(), 1);
+  for (std::size_t i = 0; i < drawn; ++i) {
+    for (const auto resource : techniques::resourcesRead(frame.lights[i].shading)) pass.reads.push_back(resource);
+  }
+  pass.execute = [&frame, drawn, shaded = desc.output == Output::shaded](framegraph::PassContext& passContext) {
+    for (std::size_t i = 0; i < drawn; ++i) {
+      const FrameLight& light = frame.lights[i];
+      techniques::ReceiverTarget receiverTarget{.depthIsComplete = i > 0};
+      if (drawn > 1) {
+        receiverTarget.colorMask.fill(false);
+        receiverTarget.colorMask[i] = true;
+      }
+      techniques::drawReceivers(passContext, light.shading, light.programs, light.texturedPrograms, frame.view,
+                                frame.receivers, shaded ? &light.shadingInputs : nullptr, receiverTarget);
+    }
+  };
+  frame.graph.addPass(std::move(pass));
+}
+
+Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameReport) {
+  if (context->lost()) return Error{ErrorCode::contextLost, "the context was lost; make a new engine on the new context"};
+  if (Status s = checkTarget(desc.target, context->capabilities().limits); !s) return s;
+  const scene::Camera camera = toCamera(desc.camera);
+  if (Status s = scene::checkCamera(camera); !s) return s;
+  if (objects.empty()) return Error{ErrorCode::emptyScene, "the scene has no objects; add one before rendering"};
+  if (lights.empty()) return Error{ErrorCode::invalidLight, "no light is set; call setLights before rendering"};
+
+  gl::HostStateGuard guard(*context, policy());
+  const gl::Counters before = encoder->counters();
+  encoder->beginFrame();
+  auto frame = std::make_unique<Frame>();
+  const double aspect = static_cast<double>(desc.target.width) / desc.target.height;
+  frame->view = {.clipFromWorld = scene::clipFromView(camera, aspect) * scene::viewFromWorld(camera),
+                 .width = desc.target.width,
+                 .height = desc.target.height};
+
+  std::vector<const EngineObject*> sceneObjects;
+  std::vector<planner::PlannedObject> planned;
+  std::uint64_t sceneRevision = 0x5ce11eu;
+  for (const auto& [id, object] : objects) {
+    sceneObjects.push_back(&object);
+    planned.push_back({.id = id,
+                       .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
+                       .revision = object.revision,
+                       .casts = object.casts,
+                       .receives = object.receives});
+    sceneRevision = planner::combineKeys(sceneRevision, object.revision);
+  }
+  const planner::FramePlan framePlan = planner.plan({.objects = planned,
+                                                     .camera = &camera,
+                                                     .aspectWidthOverHeight = aspect,
+                                                     .lights = lights,
+                                                     .lightRevisions = lightRevisions});
+  for (const std::uint32_t i : framePlan.receivers) frame->receivers.push_back(drawItem(*sceneObjects[i]));
+  frame->lights.resize(lights.size());
+  lightCaches.resize(lights.size());
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s) return s;
+  }
+  declareReceiverPass(*frame, desc);
+  auto plan = framegraph::compile(frame->graph, [this](const framegraph::ResourceDesc& resource) {
+    return executor->contentKeyOf(resource);
+  });
+  if (!plan) return plan.error();
+  auto passReports = executor->run(frame->graph, *plan, *encoder,
+                                   desc.timing == Timing::perPass ? framegraph::PassTiming::perPass : framegraph::PassTiming::off);
+  if (!passReports) return passReports.error();
+  if (Status s = context->checkErrors("a frame"); !s) return s;
+  report.passReports = std::move(passReports).value();
+  lastFrame = std::move(frame);
+  outputWidth = desc.target.width;
+  outputHeight = desc.target.height;
+  fillReport(*plan, framePlan, encoder->counters() - before, frameReport);
+  return {};
+}
+
+Outcome Engine::render(const RenderDesc& desc, FrameReport& report) {
+  report = {};
+  const Status status = state_->renderFrame(desc, report);
+  return status ? Outcome{} : state_->fail(status.error());
+}
+
+std::uint32_t Engine::outputTexture() const {
+  if (!state_->lastFrame) return 0;
+  const gl::Texture* texture = state_->executor->texture(state_->lastFrame->graph, state_->lastFrame->color);
+  return texture ? texture->name() : 0;
+}
+
+Outcome Engine::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
+  State& state = *state_;
+  if (state.context->lost()) return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+  const gl::Framebuffer* framebuffer =
+      state.lastFrame ? state.executor->framebufferFor(state.lastFrame->graph, state.lastFrame->color) : nullptr;
+  if (framebuffer == nullptr) {
+    return state.fail({ErrorCode::invalidArgument, "no frame was rendered with TargetDesc::Kind::engine"});
+  }
+  const auto width = static_cast<std::size_t>(state.outputWidth), height = static_cast<std::size_t>(state.outputHeight);
+  if (rgba == nullptr || byteCount < width * height * 4) {
+    return state.fail({ErrorCode::invalidArgument, "readOutput needs width x height x 4 bytes"});
+  }
+  gl::HostStateGuard guard(*state.context, state.policy());
+  state.encoder->beginFrame();
+  state.encoder->readPixels(*framebuffer, {0, 0, state.outputWidth, state.outputHeight}, rgba);
+  for (std::size_t y = 0; y < height / 2; ++y) {
+    std::swap_ranges(rgba + y * width * 4, rgba + (y + 1) * width * 4, rgba + (height - 1 - y) * width * 4);
+  }
+  const Status status = state.context->checkErrors("reading the output");
+  return status ? Outcome{} : state.fail(status.error());
+}
+
+}  // namespace halfshadow

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <cstdio>
+
+#include "api/engine_state.hpp"
+#include "techniques/light_depth/light_depth.hpp"
+
+namespace halfshadow {
+
+std::uint64_t Engine::State::memoryBytes() const {
+  std::uint64_t bytes = executor->memoryBytes();
+  for (const auto& [id, object] : objects) {
+    bytes += object.gpu.memoryBytes() + (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
+  }
+  return bytes;
+}
+
+void Engine::State::fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned,
+                               const gl::Counters& counters, FrameReport& frameReport) {
+  const framegraph::Graph& graph = lastFrame->graph;
+  report.skipped = plan.skipped;
+  for (const planner::Skip& skip : planned.skips) {
+    report.skipped.push_back({skip.what, std::string(planner::skipCode(skip.reason)) + ": " +
+                                             std::string(planner::skipText(skip.reason))});
+  }
+  report.planText = plan.text(graph);
+  report.planGraphviz = plan.graphviz(graph);
+  report.passes.clear();
+  for (std::size_t i = 0; i < report.passReports.size(); ++i) {
+    const framegraph::PassReport& pass = report.passReports[i];
+    const framegraph::PassStage stage = graph.passes()[plan.passes[i].pass].stage;
+    report.passes.push_back({.name = pass.name.c_str(),
+                             .target = pass.target.c_str(),
+                             .draws = pass.counters.draws,
+                             .triangles = pass.counters.triangles,
+                             .clear = pass.cleared,
+                             .load = pass.loaded,
+                             .store = pass.stored,
+                             .discard = pass.discarded,
+                             .bytesLoaded = pass.bytesLoaded,
+                             .bytesStored = pass.bytesStored,
+                             .milliseconds = pass.milliseconds,
+                             .lightSpace = stage == framegraph::PassStage::light || stage == framegraph::PassStage::mask});
+  }
+  report.skips.clear();
+  for (const auto& skip : report.skipped) report.skips.push_back({skip.what.c_str(), skip.why.c_str()});
+  frameReport = {.passes = report.passes.data(),
+                 .passCount = report.passes.size(),
+                 .skips = report.skips.data(),
+                 .skipCount = report.skips.size(),
+                 .framebufferSwitches = counters.framebufferSwitches,
+                 .draws = counters.draws,
+                 .triangles = counters.triangles,
+                 .bytesLoaded = plan.bytesLoaded,
+                 .bytesStored = plan.bytesStored,
+                 .textureBytesUploaded = counters.textureUploadBytes,
+                 .bufferBytesUploaded = counters.bufferUploadBytes,
+                 .memoryBytes = memoryBytes(),
+                 .planText = report.planText.c_str(),
+                 .planGraphviz = report.planGraphviz.c_str()};
+}
+
+DriverRecord Engine::driver() const {
+  const gl::Capabilities& capabilities = state_->context->capabilities();
+  const char* rounding = "other";
+  if (capabilities.probes.byteRounding == gl::ByteRounding::nearest) rounding = "nearest";
+  if (capabilities.probes.byteRounding == gl::ByteRounding::truncate) rounding = "truncate";
+  return {.vendor = capabilities.driver.vendor.c_str(),
+          .renderer = capabilities.driver.renderer.c_str(),
+          .version = capabilities.driver.version.c_str(),
+          .shadingLanguageVersion = capabilities.driver.shadingLanguageVersion.c_str(),
+          .depthStorage = techniques::depthStorageName(techniques::depthStorageFor(capabilities)),
+          .byteRounding = rounding,
+          .highpMantissaBits = capabilities.probes.highpMantissaBits,
+          .mediumpMantissaBits = capabilities.probes.mediumpMantissaBits,
+          .maxTextureSize = capabilities.limits.textureSize,
+          .maxVaryingVectors = capabilities.limits.varyingVectors,
+          .maxFragmentUniformVectors = capabilities.limits.fragmentUniformVectors,
+          .maxVertexUniformVectors = capabilities.limits.vertexUniformVectors,
+          .maxFragmentTextureUnits = capabilities.limits.fragmentTextureUnits,
+          .maxVertexTextureUnits = capabilities.limits.vertexTextureUnits,
+          .maxVertexAttributes = capabilities.limits.vertexAttributes,
+          .maxRenderbufferSize = capabilities.limits.renderbufferSize};
+}
+
+std::size_t Engine::capabilityCount() const { return gl::kCapabilityCount; }
+
+CapabilityRecord Engine::capability(std::size_t index) const {
+  const auto which = static_cast<gl::Capability>(index);
+  const gl::CapabilityState& state = state_->context->capabilities().state(which);
+  return {.name = gl::capabilityName(which).data(),
+          .text = gl::capabilityText(which).data(),
+          .available = state.outcome == gl::ProbeOutcome::available,
+          .reason = state.reason.c_str()};
+}
+
+std::size_t Engine::extensionCount() const { return state_->context->capabilities().extensions.size(); }
+const char* Engine::extension(std::size_t index) const {
+  return state_->context->capabilities().extensions[index].c_str();
+}
+
+std::size_t Engine::techniqueCount() const { return state_->techniques.size(); }
+
+TechniqueRecord Engine::technique(std::size_t index) const {
+  const techniques::TechniqueInfo& info = state_->techniques[index]->info();
+  const std::string& reason = state_->techniqueReasons[index];
+  return {.id = info.id.c_str(),
+          .paper = info.paper.c_str(),
+          .summary = info.summary.c_str(),
+          .guarantees = info.guarantees.c_str(),
+          .knownFailures = info.knownFailures.c_str(),
+          .supported = reason.empty(),
+          .unsupportedReason = reason.c_str()};
+}
+
+std::size_t Engine::settingCount() const { return state_->settings->declared().size(); }
+
+SettingRecord Engine::setting(std::size_t index) const {
+  const techniques::SettingInfo& info = state_->settings->declared()[index];
+  std::vector<std::string>& texts = state_->settingTexts;
+  const std::size_t count = settingCount();
+  if (texts.size() != 2 * count) texts.resize(2 * count);
+  std::string& allowed = texts[2 * index];
+  std::string& value = texts[2 * index + 1];
+  allowed.clear();
+  if (info.type == techniques::SettingType::choice) {
+    for (const std::string& choice : info.choices) allowed += (allowed.empty() ? "" : ", ") + choice;
+  } else {
+    char range[64];
+    std::snprintf(range, sizeof range, "%g to %g", info.low, info.high);
+    allowed = range;
+  }
+  value = state_->settings->text(info.key);
+  const char* type = info.type == techniques::SettingType::choice ? "choice"
+                     : info.type == techniques::SettingType::integer ? "integer" : "real";
+  return {.key = info.key.c_str(),
+          .type = type,
+          .defaultValue = info.defaultValue.c_str(),
+          .value = value.c_str(),
+          .allowed = allowed.c_str(),
+          .text = info.text.c_str()};
+}
+
+}  // namespace halfshadow

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Everything behind the public Engine.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "framegraph/executor.hpp"
+#include "gl/context.hpp"
+#include "gl/encoder.hpp"
+#include "gl/host_state.hpp"
+#include "gl/program.hpp"
+#include "halfshadow/halfshadow.hpp"
+#include "planner/frame_planner.hpp"
+#include "scene/bounds.hpp"
+#include "techniques/core/receiver_pass.hpp"
+#include "techniques/registry/registry.hpp"
+
+namespace halfshadow {
+
+struct EngineObject {
+  scene::TriangleMesh mesh;  ///< kept for bounds and tight light fits
+  techniques::GpuMesh gpu;
+  glm::dmat4 worldFromObject{1.0};
+  scene::Bounds boundsObject;
+  bool casts = true, receives = true;
+  glm::vec4 baseColor{1.0f};
+  gl::Texture baseColorTexture;
+  std::uint64_t revision = 0;
+};
+
+/// What is kept of a light between frames.
+struct LightCache {
+  std::uint64_t key = 0;
+  int mapSize = 0;
+  std::vector<glm::dvec3> casterPointsWorld;
+  planner::LightFit fit;
+};
+
+/// Strings and arrays that a FrameReport points to.
+struct ReportStorage {
+  std::vector<framegraph::PassReport> passReports;
+  std::vector<framegraph::Graph::Skipped> skipped;
+  std::vector<PassRecord> passes;
+  std::vector<SkipRecord> skips;
+  std::string planText, planGraphviz;
+};
+
+struct FrameLight {
+  std::vector<techniques::DrawItem> casters;
+  std::vector<techniques::DrawItem> shadowlessReceivers;
+  techniques::ReceiverShading shading;
+  techniques::ShadingInputs shadingInputs;
+  techniques::ReceiverPrograms programs, texturedPrograms;
+};
+
+/// Lives from declaration to execution of one frame.
+struct Frame {
+  techniques::View view;
+  std::vector<techniques::DrawItem> receivers;
+  std::vector<FrameLight> lights;
+  framegraph::Graph graph;
+  framegraph::ResourceId color;
+};
+
+struct Engine::State {
+  std::unique_ptr<gl::Context> context;
+  HostState hostState = HostState::restore;
+  std::unique_ptr<gl::ProgramCache> programs;
+  std::unique_ptr<gl::Encoder> encoder;
+  std::unique_ptr<framegraph::Executor> executor;
+  techniques::SharedTextures shared;
+  std::vector<std::unique_ptr<techniques::Technique>> techniques;
+  std::unique_ptr<techniques::Settings> settings;
+  std::vector<std::string> techniqueReasons, settingTexts;
+  techniques::Technique* technique = nullptr;
+  std::map<ObjectId, EngineObject> objects;
+  ObjectId nextId = 1;
+  std::uint64_t nextRevision = 1;
+  std::vector<scene::AreaLight> lights;
+  std::vector<std::uint64_t> lightRevisions;
+  planner::FramePlanner planner;
+  std::vector<LightCache> lightCaches;
+  ReportStorage report;
+  std::string message;
+  std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
+  int outputWidth = 0, outputHeight = 0;
+
+  Outcome fail(const Error& error);
+  gl::HostStatePolicy policy() const;
+  Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
+                      const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision, const RenderDesc& desc);
+  void declareReceiverPass(Frame& frame, const RenderDesc& desc);
+  Status renderFrame(const RenderDesc& desc, FrameReport& report);
+  void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned, const gl::Counters& counters,
+                  FrameReport& report);
+  std::uint64_t memoryBytes() const;
+};
+
+}  // namespace halfshadow

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "api/receiver_reach.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace halfshadow::api {
+namespace {
+/// Side of a point to the view's four planes and the near plane; inside = all >= 0.
+std::array<double, 5> planeDistances(const planner::LightFit& fit, const glm::dvec3& p) {
+  return {p.x - fit.tangentLow.x * p.z, fit.tangentHigh.x * p.z - p.x, p.y - fit.tangentLow.y * p.z,
+          fit.tangentHigh.y * p.z - p.y, p.z - fit.nearDistance};
+}
+
+/// Parameters of the part of segment a-b inside the planes; false when none is.
+bool clip(const std::array<double, 5>& a, const std::array<double, 5>& b, double& enter, double& leave) {
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    if (a[i] < 0 && b[i] < 0) return false;
+    if (a[i] < 0) enter = std::max(enter, a[i] / (a[i] - b[i]));
+    if (b[i] < 0) leave = std::min(leave, a[i] / (a[i] - b[i]));
+  }
+  return enter <= leave;
+}
+}  // namespace
+
+double receiverFarDistance(const planner::LightFit& fit, const scene::Bounds& receiverWorld) {
+  if (fit.empty || receiverWorld.empty()) return 0.0;
+  const auto toLight = [&](const glm::dvec3& world) { return glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0)); };
+  double farthest = 0.0;
+  // z is linear, so over box ∩ pyramid it is largest on an edge of the box inside the pyramid …
+  const auto corners = receiverWorld.corners();
+  for (unsigned from = 0; from < 8; ++from) {
+    for (unsigned axis = 1; axis < 8; axis *= 2) {
+      if (from & axis) continue;
+      const glm::dvec3 a = toLight(corners[from]), b = toLight(corners[from | axis]);
+      double enter = 0.0, leave = 1.0;
+      if (!clip(planeDistances(fit, a), planeDistances(fit, b), enter, leave)) continue;
+      farthest = std::max({farthest, a.z + (b.z - a.z) * enter, a.z + (b.z - a.z) * leave});
+    }
+  }
+  // … or where an edge of the pyramid leaves the box.
+  const glm::dmat4 worldFromLight = glm::inverse(fit.lightFromWorld);
+  const glm::dvec3 origin = glm::dvec3(worldFromLight[3]);
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec3 tangent(corner & 1 ? fit.tangentHigh.x : fit.tangentLow.x,
+                             corner & 2 ? fit.tangentHigh.y : fit.tangentLow.y, 1.0);
+    const glm::dvec3 direction = glm::dvec3(worldFromLight * glm::dvec4(tangent, 0.0));
+    double enter = 0.0, leave = 1e300;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (direction[axis] == 0.0) {
+        if (origin[axis] < receiverWorld.low[axis] || origin[axis] > receiverWorld.high[axis]) leave = -1.0;
+        continue;
+      }
+      const double t0 = (receiverWorld.low[axis] - origin[axis]) / direction[axis];
+      const double t1 = (receiverWorld.high[axis] - origin[axis]) / direction[axis];
+      enter = std::max(enter, std::min(t0, t1));
+      leave = std::min(leave, std::max(t0, t1));
+    }
+    // Flat boxes (a ground plane) are met in a single point: allow rounding.
+    if (leave > 0 && enter <= leave * (1 + 1e-12)) farthest = std::max(farthest, leave);
+  }
+  return farthest;
+}
+
+}  // namespace halfshadow::api

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Soft shadows of rectangular area lights on OpenGL ES 2.0, for a renderer that owns its context.
+///
+/// This library does NOT open a window, make a context, swap buffers, load files, or keep your data: it gets
+/// meshes, lights and a camera, and draws into a framebuffer that you name, or into a texture that you read.
+/// All calls come from the thread on which the context is current. No exceptions leave it.
+#pragma once
+
+#include "halfshadow/types.hpp"
+
+namespace halfshadow {
+
+class Engine {
+ public:
+  /// Loads entry points and probes the context that is current. Null on failure; `outcome` then says why
+  /// (driverMissing: an entry point is missing or the version is below 2.0).
+  static Engine* create(const EngineDesc& desc, Outcome& outcome);
+  /// Deletes all GL objects, so the context must be current, unless contextLost() was called.
+  ~Engine();
+  Engine(const Engine&) = delete;
+  Engine& operator=(const Engine&) = delete;
+
+  /// Copies, checks and uploads a mesh. Degenerate and duplicate triangles are dropped. Errors: invalidMesh,
+  /// emptyScene (no triangle is left), invalidArgument (non-finite transform), outOfMemory.
+  Outcome addObject(const ObjectDesc& desc, ObjectId& id);
+  /// Moves an object; light views that it touches are remade. Errors: invalidArgument.
+  Outcome setTransform(ObjectId id, const double worldFromObject[16]);
+  /// Replaces positions (and normals) of the same vertices and triangles: skinned and morphed meshes.
+  Outcome setVertices(ObjectId id, const MeshDesc& mesh);
+  Outcome removeObject(ObjectId id);
+
+  /// Up to kMaxLights lights. Errors: invalidLight, invalidArgument.
+  Outcome setLights(const LightDesc* lights, std::size_t count);
+  /// Errors: unknownTechnique, capabilityMissing (naming the capability).
+  Outcome setTechnique(const char* id);
+  /// "pcf.size" = "7". Errors: unknownSetting, invalidArgument; the message lists what is allowed.
+  Outcome set(const char* key, const char* value);
+
+  /// Renders one frame. Errors: invalidCamera, invalidArgument (size 0 or above the limit), emptyScene,
+  /// shaderFailed, contextLost, driverFault, outOfMemory. On error nothing was drawn to the target, or it
+  /// holds unshadowed receivers; never garbage.
+  Outcome render(const RenderDesc& desc, FrameReport& report);
+
+  /// The last frame rendered with TargetDesc::Kind::engine: its texture (0 if none), and its pixels, RGBA,
+  /// width × height × 4 bytes, top row first.
+  std::uint32_t outputTexture() const;
+  Outcome readOutput(std::uint8_t* rgba, std::size_t byteCount);
+
+  /// The context was lost: GL names are forgotten, nothing is deleted; then only destruction is allowed.
+  void contextLost();
+  /// GL objects that are alive; 0 after the last engine is destroyed.
+  int liveObjectCount() const;
+  /// Waits until the GPU is done.
+  void finish();
+
+  DriverRecord driver() const;
+  std::size_t capabilityCount() const;
+  CapabilityRecord capability(std::size_t index) const;
+  std::size_t extensionCount() const;
+  const char* extension(std::size_t index) const;
+  std::size_t techniqueCount() const;
+  TechniqueRecord technique(std::size_t index) const;
+  std::size_t settingCount() const;
+  SettingRecord setting(std::size_t index) const;
+
+ private:
+  Engine();
+  struct State;
+  State* state_;
+};
+
+}  // namespace halfshadow

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Plain data of the public interface: no OpenGL, no mathematics library, no containers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "halfshadow/error_codes.h"
+
+namespace halfshadow {
+
+enum class ErrorCode : int {
+#define HALFSHADOW_ERROR_ENUM(name, NAME, text) name,
+  HALFSHADOW_ERROR_LIST(HALFSHADOW_ERROR_ENUM)
+#undef HALFSHADOW_ERROR_ENUM
+};
+
+/// How a call ended. `message` is one sentence that names what to change; it belongs to the engine (or is a
+/// literal) and lives until the engine's next call.
+struct Outcome {
+  ErrorCode code = ErrorCode::ok;
+  const char* message = "";
+  bool ok() const { return code == ErrorCode::ok; }
+};
+
+/// What the engine leaves of the host's OpenGL ES state after each call.
+enum class HostState {
+  restore,        ///< everything is put back
+  leaveDefaults,  ///< the specification's initial values
+  leaveDirty      ///< undefined; fastest
+};
+
+struct EngineDesc {
+  /// Address of an OpenGL ES entry point, or null. Required.
+  void* (*getProcAddress)(const char* name, void* user) = nullptr;
+  void* getProcAddressUser = nullptr;
+  /// Capabilities treated as absent ("depth-texture", "highp", …); for testing fallbacks.
+  const char* const* forcedOff = nullptr;
+  std::size_t forcedOffCount = 0;
+  HostState hostState = HostState::restore;
+  /// Folder that replaces the embedded shaders, or null.
+  const char* shaderFolder = nullptr;
+};
+
+/// A triangle list, copied during the call. Indices counter-clockwise seen from outside.
+struct MeshDesc {
+  const float* positions = nullptr;  ///< vertexCount × 3, object space, scene units
+  std::size_t positionStrideBytes = 12;
+  std::uint32_t vertexCount = 0;
+  const std::uint32_t* indices = nullptr;  ///< indexCount entries, or null for 0, 1, 2, …
+  std::size_t indexCount = 0;
+  const float* normals = nullptr;    ///< vertexCount × 3, unit, or null (facets are shaded flat)
+  const float* texcoords = nullptr;  ///< vertexCount × 2, or null
+};
+
+struct ObjectDesc {
+  MeshDesc mesh;
+  double worldFromObject[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  ///< column-major, affine
+  bool casts = true;     ///< may shadow others (and itself)
+  bool receives = true;  ///< is drawn, with visibility
+  float baseColor[4] = {0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
+  const std::uint8_t* baseColorPixels = nullptr;  ///< sRGB, baseColorChannels (3 or 4) a pixel, top row first
+  int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;
+};
+using ObjectId = std::uint32_t;
+
+/// The points center + a·halfU + b·halfV, a and b in [-1, 1], world units; emits towards halfU × halfV.
+/// Both half vectors zero: a point light that emits around `emission`.
+struct LightDesc {
+  double center[3] = {0, 0, 0};
+  double halfU[3] = {0, 0, 0};
+  double halfV[3] = {0, 0, 0};
+  double emission[3] = {0, -1, 0};  ///< read only when both half vectors are zero
+  float color[3] = {1, 1, 1};
+  double intensity = 1.0;
+};
+inline constexpr int kMaxLights = 4;
+
+struct CameraDesc {
+  double eye[3] = {0, 0, 5};
+  double target[3] = {0, 0, 0};
+  double up[3] = {0, 1, 0};
+  double verticalFovRadians = 0.8;
+  double nearDistance = 0.1, farDistance = 1000.0;
+};
+
+enum class Output {
+  shaded,        ///< lit colours, forward, one light (the first)
+  visibility,    ///< light i in channel i, 8 bits; a single light in all four channels; 1 where no receiver is
+  visibility16,  ///< first light, red high byte, green low byte; value = (256·red + green) / 65280
+  taps           ///< first light, texture fetches of the visibility function; red low byte, green high byte
+};
+
+/// Where a frame goes.
+struct TargetDesc {
+  enum class Kind {
+    engine,  ///< a texture of the engine's own (see Engine::outputTexture, Engine::readOutput)
+    host     ///< a framebuffer of the host's, with depth; cleared inside the rectangle
+  };
+  Kind kind = Kind::engine;
+  std::uint32_t framebuffer = 0;  ///< host only; 0 is allowed
+  int x = 0, y = 0;
+  int width = 0, height = 0;
+};
+
+enum class Timing { off, perPass };
+
+struct RenderDesc {
+  CameraDesc camera;
+  TargetDesc target;
+  Output output = Output::shaded;
+  Timing timing = Timing::off;
+  float clearColor[4] = {0.045f, 0.055f, 0.075f, 1.0f};  ///< of shaded output
+};
+
+struct PassRecord {
+  const char* name = "";
+  const char* target = "";
+  std::uint64_t draws = 0, triangles = 0;
+  bool clear = false, load = false, store = false, discard = false;
+  std::uint64_t bytesLoaded = 0, bytesStored = 0;
+  double milliseconds = 0.0;  ///< only with Timing::perPass
+  bool lightSpace = false;    ///< a shadow map or mask pass, as opposed to a pass over receivers
+};
+
+struct SkipRecord {
+  const char* what = "";
+  const char* why = "";
+};
+
+/// What a frame did. Pointers live until the engine's next call.
+struct FrameReport {
+  const PassRecord* passes = nullptr;
+  std::size_t passCount = 0;
+  const SkipRecord* skips = nullptr;
+  std::size_t skipCount = 0;
+  std::uint64_t framebufferSwitches = 0, draws = 0, triangles = 0;
+  std::uint64_t bytesLoaded = 0, bytesStored = 0, textureBytesUploaded = 0, bufferBytesUploaded = 0;
+  std::uint64_t memoryBytes = 0;  ///< of textures, renderbuffers and buffers that the engine holds
+  const char* planText = "";      ///< passes, attachments and bytes as a table
+  const char* planGraphviz = "";
+};
+
+struct CapabilityRecord {
+  const char* name = "";
+  const char* text = "";
+  bool available = false;
+  const char* reason = "";
+};
+
+struct TechniqueRecord {
+  const char* id = "";
+  const char* paper = "";
+  const char* summary = "";
+  const char* guarantees = "";
+  const char* knownFailures = "";
+  bool supported = false;
+  const char* unsupportedReason = "";
+};
+
+struct SettingRecord {
+  const char* key = "";
+  const char* type = "";          ///< "integer", "real" or "choice"
+  const char* defaultValue = "";
+  const char* value = "";
+  const char* allowed = "";       ///< "2 … 17" or "grid, poisson"
+  const char* text = "";
+};
+
+struct DriverRecord {
+  const char* vendor = "";
+  const char* renderer = "";
+  const char* version = "";
+  const char* shadingLanguageVersion = "";
+  const char* depthStorage = "";  ///< the rung chosen for shadow maps
+  const char* byteRounding = "";  ///< of RGBA8 targets, measured
+  int highpMantissaBits = 0, mediumpMantissaBits = 0;
+  int maxTextureSize = 0, maxVaryingVectors = 0, maxFragmentUniformVectors = 0, maxVertexUniformVectors = 0;
+  int maxFragmentTextureUnits = 0, maxVertexTextureUnits = 0, maxVertexAttributes = 0, maxRenderbufferSize = 0;
+};
+
+}  // namespace halfshadow

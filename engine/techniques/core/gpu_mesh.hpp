@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// A mesh on the GPU, made once and drawn by light and receiver passes alike.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "gl/encoder.hpp"
+#include "scene/mesh.hpp"
+
+namespace halfshadow::techniques {
+
+/// True where receivers need facet normals as a vertex attribute: no derivatives, or none precise enough.
+bool usesFacetStream(const gl::Capabilities& capabilities);
+
+/// Streams of one mesh: positions (12 bytes a vertex) with indices; normals and texture coordinates where the
+/// source has them (read by shading only); and, where derivatives or highp are missing, a facet stream (position and
+/// facet normal, 24 bytes, three vertices a triangle), since the receiver-plane bias needs the exact facet
+/// plane. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
+class GpuMesh {
+ public:
+  enum class Streams { positions, facet, shading };
+
+  static Result<GpuMesh> create(gl::Context& context, const scene::TriangleMesh& mesh);
+  /// Replaces positions and normals (same topology): animated casters. Errors: outOfMemory, invalidArgument.
+  Status update(gl::Context& context, const scene::TriangleMesh& mesh);
+
+  /// `facet` falls back to `positions` where derivatives exist. One draw per range.
+  void draw(gl::Encoder& encoder, const gl::DrawState& state, Streams streams) const;
+  std::uint64_t memoryBytes() const;
+
+ private:
+  struct Range {
+    std::size_t firstVertex = 0, firstIndex = 0, indexCount = 0;
+  };
+  void split(const scene::TriangleMesh& mesh, bool wideIndices);
+  Status upload(gl::Context& context, const scene::TriangleMesh& mesh);
+
+  gl::Buffer positions_, indices_, normals_, texcoords_, facet_;
+  gl::IndexType indexType_ = gl::IndexType::uint16;
+  std::vector<Range> ranges_;
+  std::vector<std::uint32_t> sourceVertex_;  ///< of each GPU vertex
+  std::vector<std::uint32_t> gpuIndices_;    ///< relative to the range's first vertex
+  std::size_t facetVertexCount_ = 0;
+};
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/core/receiver_pass.hpp"
+
+#include <glm/gtc/matrix_inverse.hpp>
+
+namespace halfshadow::techniques {
+namespace {
+
+std::vector<std::string> outputDefines(ReceiverOutput output, bool baseColorTexture) {
+  switch (output) {
+    case ReceiverOutput::visibility: return {};
+    case ReceiverOutput::visibility16: return {"HS_VISIBILITY_16"};
+    case ReceiverOutput::taps: return {"HS_COUNT_TAPS"};
+    case ReceiverOutput::shaded:
+      return baseColorTexture ? std::vector<std::string>{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}
+                              : std::vector<std::string>{"HS_SHADED"};
+  }
+  return {};
+}
+
+void bindTextures(framegraph::PassContext& context, gl::Program& program, const ReceiverShading& shading) {
+  std::vector<gl::TextureBinding> bindings;
+  for (const ReceiverTexture& texture : shading.textures) {
+    const int unit = program.samplerUnit(texture.sampler);
+    if (unit < 0) continue;
+    bindings.push_back({unit, texture.texture ? texture.texture : &context.texture(texture.resource)});
+  }
+  context.encoder.bindTextures(bindings);
+}
+
+void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
+                       const DrawItem& item, const ShadingInputs* inputs) {
+  program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
+  const glm::dmat4 mapFromObject = shading.mapFromWorld * item.worldFromObject;
+  program.set(gl, "u_mapFromObject", glm::mat4(mapFromObject));
+  if (shading.needsFacetNormal) {
+    // Rows s·z, t·z and z of the map are the space in which the facet's plane is taken.
+    glm::dmat3 planeFromObject(0.0);
+    for (int column = 0; column < 3; ++column) {
+      planeFromObject[column] = glm::dvec3(mapFromObject[column][0], mapFromObject[column][1], mapFromObject[column][3]);
+    }
+    glm::dmat3 normalMatrix = glm::inverseTranspose(planeFromObject);
+    // Only the direction matters; unit scale keeps fp32 (and mediump varyings) in range for tiny worlds.
+    double largest = 0.0;
+    for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(normalMatrix[i / 3][i % 3]));
+    program.set(gl, "u_mapNormalFromObject", glm::mat3(normalMatrix / std::max(largest, 1e-300)));
+  }
+  if (inputs == nullptr) return;
+  glm::dmat4 relative = item.worldFromObject;
+  relative[3] -= glm::dvec4(inputs->light->centerWorld, 0.0);
+  program.set(gl, "u_shadeFromObject", glm::mat4(relative));
+  program.set(gl, "u_worldNormalFromObject", glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
+  program.set(gl, "u_baseColor", item.baseColor);
+}
+
+void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const ShadingInputs* inputs) {
+  if (shading.setUniforms) shading.setUniforms(program, gl);
+  if (inputs == nullptr) return;
+  const scene::AreaLight& light = *inputs->light;
+  program.set(gl, "u_light", glm::vec4(light.color * static_cast<float>(light.intensity), 1.0f));
+  program.set(gl, "u_emission", glm::vec4(glm::vec3(light.emission), static_cast<float>(inputs->referenceDistance)));
+  program.set(gl, "u_eye", glm::vec4(glm::vec3(inputs->eyeWorld - light.centerWorld), 0.0f));
+}
+
+}  // namespace
+
+std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading) {
+  std::vector<framegraph::ResourceId> resources;
+  for (const ReceiverTexture& texture : shading.textures) {
+    if (texture.texture == nullptr) resources.push_back(texture.resource);
+  }
+  return resources;
+}
+
+Result<ReceiverPrograms> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
+                                          ReceiverOutput output, bool baseColorTexture) {
+  ReceiverPrograms result;
+  std::vector<std::string> defines = shading.defines;
+  if (shading.needsFacetNormal) defines.push_back("HS_FACET_NORMAL");
+  for (std::string& define : outputDefines(output, baseColorTexture)) defines.push_back(std::move(define));
+  const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
+    auto variant = defines;
+    variant.insert(variant.end(), extra.begin(), extra.end());
+    auto linked = programs.get({"receiver.vert", shading.fragmentFile, variant});
+    if (!linked) return linked.error();
+    program = *linked;
+    return {};
+  };
+  // Tap counts must be those of the two draws together, so the count variant evaluates them in one.
+  if (shading.skip == FilterSkip::stencil && output != ReceiverOutput::taps) {
+    if (Status s = link({"HS_PHASE_CLASSIFY"}, result.classify); !s) return s.error();
+    if (Status s = link({"HS_PHASE_FILTER"}, result.filter); !s) return s.error();
+  } else {
+    if (Status s = link({}, result.whole); !s) return s.error();
+  }
+  return result;
+}
+
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverPrograms& programs,
+                   const ReceiverPrograms& texturedPrograms, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* inputs, const ReceiverTarget& target) {
+  gl::Encoder& encoder = context.encoder;
+  gl::DrawState state;
+  state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less, .write = !target.depthIsComplete};
+  state.colorMask = target.colorMask;
+  if (target.additive) {
+    state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
+  }
+  const auto streams = [&] {
+    if (inputs) return shading.needsFacetNormal ? GpuMesh::Streams::facet : GpuMesh::Streams::shading;
+    return shading.needsFacetNormal ? GpuMesh::Streams::facet : GpuMesh::Streams::positions;
+  }();
+  gl::Program* current = nullptr;
+  const auto drawItem = [&](gl::Program* program, const DrawItem& item) {
+    if (program != current) {
+      current = program;
+      encoder.useProgram(*program);
+      setFrameUniforms(encoder.context(), *program, shading, inputs);
+      bindTextures(context, *program, shading);
+    }
+    if (item.baseColorTexture && inputs) {
+      const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
+      if (binding.unit >= 0) encoder.bindTextures({&binding, 1});
+    }
+    setObjectUniforms(encoder.context(), *program, shading, view, item, inputs);
+    item.mesh->draw(encoder, state, streams);
+  };
+  const auto programsOf = [&](const DrawItem& item) -> const ReceiverPrograms& {
+    return item.baseColorTexture && inputs && texturedPrograms.whole != programs.whole ? texturedPrograms : programs;
+  };
+  if (programs.classify == nullptr) {
+    for (const DrawItem& item : items) drawItem(programsOf(item).whole, item);
+    return;
+  }
+  // Casters are their own neighbours in the map, so the mask leaves nearly all their pixels to the filter: they
+  // are filtered at once and cover what lies behind them. Receivers that cast nothing are drawn twice: pixels
+  // that the mask decides write colour and depth; the second draw fails the depth test there and filters the
+  // rest.
+  for (const DrawItem& item : items) {
+    if (item.casts) drawItem(programsOf(item).filter, item);
+  }
+  for (const DrawItem& item : items) {
+    if (!item.casts) drawItem(programsOf(item).classify, item);
+  }
+  for (const DrawItem& item : items) {
+    if (!item.casts) drawItem(programsOf(item).filter, item);
+  }
+}
+
+}  // namespace halfshadow::techniques

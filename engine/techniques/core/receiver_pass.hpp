@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Drawing the receivers with a technique's visibility function: as an image of visibilities, as counts of
+/// taps, or shaded in one forward pass.
+#pragma once
+
+#include "techniques/core/technique.hpp"
+
+namespace halfshadow::techniques {
+
+enum class ReceiverOutput {
+  visibility,    ///< 8 bits, light i in channel i (a single light in all four)
+  visibility16,  ///< one light, two bytes: red high, green low, value = (256 high + low) / 65280
+  taps,          ///< fetches of each pixel's visibility function: red low byte, green high byte
+  shaded         ///< lit colour of one light, visibility evaluated in the same pass
+};
+
+struct ShadingInputs {
+  const scene::AreaLight* light = nullptr;
+  glm::dvec3 eyeWorld{0.0};
+  double referenceDistance = 1.0;  ///< at which the light's intensity counts 1
+};
+
+/// One light's visibility and where it goes.
+struct ReceiverLight {
+  const ReceiverShading* shading = nullptr;
+  const ShadingInputs* shadingInputs = nullptr;  ///< for ReceiverOutput::shaded
+};
+
+/// Programs of one light, ready to draw; made while declaring so that a shader error is a frame's error.
+struct ReceiverPrograms {
+  gl::Program* whole = nullptr;     ///< every fragment
+  gl::Program* classify = nullptr;  ///< FilterSkip::stencil: draws what needs no filter, discards the rest
+  gl::Program* filter = nullptr;    ///< FilterSkip::stencil: the rest
+};
+Result<ReceiverPrograms> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
+                                          ReceiverOutput output, bool baseColorTexture);
+
+/// How the receivers' colours reach the target.
+struct ReceiverTarget {
+  std::array<bool, 4> colorMask{true, true, true, true};
+  bool depthIsComplete = false;  ///< an earlier light of the pass has drawn all depths
+  bool additive = false;         ///< blend ONE, ONE
+};
+
+/// Draws all items; called inside a pass whose reads include the shading's resources.
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverPrograms& programs,
+                   const ReceiverPrograms& texturedPrograms, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* shadingInputs, const ReceiverTarget& target);
+
+/// Resources that the pass must list as read.
+std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading);
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/core/settings.hpp"
+
+#include <algorithm>
+#include <cassert>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+
+namespace halfshadow::techniques {
+namespace {
+std::string number(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
+}
+
+bool parse(std::string_view text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+}  // namespace
+
+Settings::Settings(std::vector<SettingInfo> declared) : declared_(std::move(declared)) {
+  for (const SettingInfo& info : declared_) values_[info.key] = info.defaultValue;
+}
+
+Status Settings::set(std::string_view key, std::string_view value) {
+  const auto info = std::ranges::find(declared_, key, &SettingInfo::key);
+  if (info == declared_.end()) {
+    const std::string prefix(key.substr(0, key.find('.')));
+    std::string known;
+    for (const SettingInfo& candidate : declared_) {
+      const bool related = candidate.key.starts_with(prefix + ".") || candidate.key.find('.') == std::string::npos;
+      if (related) known += (known.empty() ? "" : ", ") + candidate.key;
+    }
+    return Error{ErrorCode::unknownSetting, "unknown setting \"" + std::string(key) + "\"; known here: " + known};
+  }
+  if (info->type == SettingType::choice) {
+    if (std::ranges::find(info->choices, value) == info->choices.end()) {
+      std::string known;
+      for (const std::string& choice : info->choices) known += (known.empty() ? "" : ", ") + choice;
+      return Error{ErrorCode::invalidArgument, info->key + "=" + std::string(value) + ": choose one of " + known};
+    }
+  } else {
+    double parsed = 0;
+    const bool whole = info->type != SettingType::integer || (parse(value, parsed) && parsed == std::floor(parsed));
+    if (!parse(value, parsed) || !whole || parsed < info->low || parsed > info->high) {
+      return Error{ErrorCode::invalidArgument, info->key + "=" + std::string(value) + ": give " +
+                                                   (info->type == SettingType::integer ? "a whole number" : "a number") +
+                                                   " from " + number(info->low) + " to " + number(info->high)};
+    }
+  }
+  std::string& stored = values_.find(key)->second;
+  if (stored != value) {
+    stored = value;
+    ++revision_;
+  }
+  return {};
+}
+
+const std::string& Settings::valueOf(std::string_view key) const {
+  const auto found = values_.find(key);
+  assert(found != values_.end() && "a technique reads a setting that it never declared");
+  return found->second;
+}
+
+double Settings::real(std::string_view key) const {
+  double value = 0;
+  parse(valueOf(key), value);
+  return value;
+}
+
+int Settings::integer(std::string_view key) const { return static_cast<int>(std::lround(real(key))); }
+const std::string& Settings::choice(std::string_view key) const { return valueOf(key); }
+std::string Settings::text(std::string_view key) const { return valueOf(key); }
+
+bool Settings::isDefault(std::string_view key) const {
+  const auto info = std::ranges::find(declared_, key, &SettingInfo::key);
+  return info != declared_.end() && info->defaultValue == valueOf(key);
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// What a technique is, what it gets per frame and light, and what it gives back: declared passes and the way
+/// a receiver fragment obtains its visibility.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "framegraph/executor.hpp"
+#include "framegraph/graph.hpp"
+#include "gl/program.hpp"
+#include "planner/light_fit.hpp"
+#include "techniques/core/gpu_mesh.hpp"
+#include "techniques/core/settings.hpp"
+#include "techniques/core/shared_textures.hpp"
+
+namespace halfshadow::techniques {
+
+struct TechniqueInfo {
+  std::string id;
+  std::string paper;          ///< author, year, section
+  std::string summary;
+  std::string guarantees;     ///< what holds exactly
+  std::string knownFailures;  ///< what it gets wrong by construction
+};
+
+struct Support {
+  bool supported = true;
+  std::string reason;  ///< the missing capability by name, and what would provide it
+};
+
+/// One object placed in the world, as passes draw it.
+struct DrawItem {
+  const GpuMesh* mesh = nullptr;
+  bool casts = true;
+  glm::dmat4 worldFromObject{1.0};
+  glm::vec4 baseColor{1.0f};
+  const gl::Texture* baseColorTexture = nullptr;
+  bool doubleSided = false;
+};
+
+/// The screen side of a frame.
+struct View {
+  glm::dmat4 clipFromWorld{1.0};
+  int width = 0, height = 0;
+};
+
+/// How receiver fragments that need the filter are kept apart from those that do not.
+enum class FilterSkip {
+  none,    ///< every fragment runs the same code
+  branch,  ///< `if` around the taps
+  loop,    ///< a tap loop that ends at the fragment's own count
+  stencil  ///< a first draw decides what needs no filter and tags it in depth; a second draw filters the rest
+};
+
+/// What a technique may read while it declares a frame for one light. References live until the frame ends.
+struct LightFrame {
+  const gl::Capabilities& capabilities;
+  gl::Context& context;
+  gl::ProgramCache& programs;
+  SharedTextures& shared;
+  const Settings& settings;
+  framegraph::Graph& graph;
+  const View& view;
+  const scene::AreaLight& light;
+  int lightIndex = 0;
+  planner::LightFit fit;
+  std::span<const glm::dvec3> casterPointsWorld;  ///< what the fit encloses
+  double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
+  std::span<const DrawItem> casters;  ///< those the light view is made from
+  std::span<const DrawItem> receivers;
+  /// Objects that receive but cast nothing, for maps that hold the whole scene.
+  std::span<const DrawItem> shadowlessReceivers;
+  std::uint64_t contentKey = 0;       ///< of light, casters and fit
+  std::uint64_t sceneKey = 0;         ///< the same with the receivers
+  std::string mapName;                ///< appended to the names of maps, for techniques with several a light
+  framegraph::Lifetime mapLifetime = framegraph::Lifetime::persistent;
+  FilterSkip preferredSkip = FilterSkip::branch;  ///< the device profile's choice
+};
+
+/// A sampler of the receiver program and what it reads: a resource of the graph, or a texture of the
+/// technique's own.
+struct ReceiverTexture {
+  gl::UniformKey sampler;
+  framegraph::ResourceId resource;
+  const gl::Texture* texture = nullptr;
+};
+
+/// How a receiver fragment obtains the visibility of one light.
+struct ReceiverShading {
+  std::string fragmentFile;          ///< below shaders_es2/; defines halfshadow_visibility()
+  std::vector<std::string> defines;  ///< of the variant
+  std::vector<ReceiverTexture> textures;
+  std::function<void(gl::Program&, gl::Context&)> setUniforms;
+  glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
+  FilterSkip skip = FilterSkip::none;
+  bool needsFacetNormal = false;     ///< receiver-plane bias
+  bool forward = true;               ///< may be evaluated inside a host's own fragment shader
+};
+
+class Technique {
+ public:
+  virtual ~Technique() = default;
+  virtual const TechniqueInfo& info() const = 0;
+  virtual std::vector<SettingInfo> settings() const { return {}; }
+  virtual Support support(const gl::Capabilities& capabilities) const {
+    (void)capabilities;
+    return {};
+  }
+  /// Adds light, mask and screen passes to the graph and says how receivers consume them.
+  virtual Result<ReceiverShading> declare(const LightFrame& frame) = 0;
+  /// The context is gone: forget all GL objects.
+  virtual void contextLost() {}
+};
+
+}  // namespace halfshadow::techniques

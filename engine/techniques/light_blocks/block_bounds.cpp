@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+#include <cmath>
+
+#include "planner/frame_planner.hpp"
+#include "techniques/light_blocks/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+
+void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
+  framegraph::PassDesc pass{.name = filter.name, .stage = framegraph::PassStage::mask, .reads = {filter.source}};
+  pass.writes = {{.resource = filter.target, .initial = framegraph::InitialContent::dontCare}};
+  pass.contentKey = filter.contentKey;
+  pass.execute = [filter](framegraph::PassContext& context) {
+    gl::Encoder& encoder = context.encoder;
+    encoder.useProgram(*filter.program);
+    const float size = static_cast<float>(filter.sourceSize);
+    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, 0, 0));
+    if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
+    const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler), &context.texture(filter.source)};
+    encoder.bindTextures({&binding, 1});
+    encoder.drawFullscreen({});
+  };
+  graph.addPass(std::move(pass));
+}
+
+Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth, double radiusTexels) {
+  BlockBounds bounds{.radiusTexels = radiusTexels};
+  bounds.blockTexels = 4;
+  while (bounds.blockTexels < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
+  int size = depth.space.mapSize;
+  if (size < 4 * bounds.blockTexels) {
+    return Error{ErrorCode::invalidArgument, "map_size=" + std::to_string(size) + " is too small for a kernel of radius " +
+                                                 std::to_string(static_cast<int>(radiusTexels)) + " texels; raise map_size"};
+  }
+  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " block bounds ";
+  framegraph::ResourceId source = depth.map;
+  int remaining = bounds.blockTexels;
+  bool fromDepth = true;
+  while (remaining > 1) {
+    const int factor = remaining % 4 == 0 ? 4 : 2;
+    auto defines = depthDefines(depth.storage);
+    defines.push_back("HS_FACTOR " + std::to_string(factor));
+    if (fromDepth) defines.push_back("HS_FROM_DEPTH");
+    auto program = frame.programs.get({"fullscreen.vert", "block_bounds.frag", defines});
+    if (!program) return program.error();
+    const int targetSize = (size + factor - 1) / factor;
+    const std::string name = prefix + std::to_string(targetSize);
+    const auto target = frame.graph.addResource({.name = name,
+                                                 .width = targetSize,
+                                                 .height = targetSize,
+                                                 .lifetime = framegraph::Lifetime::persistent});
+    const std::uint64_t key = planner::combineKeys(depth.contentKey, static_cast<std::uint64_t>(targetSize));
+    addFilterPass(frame.graph, {.name = name, .program = *program, .source = source, .target = target,
+                                .sourceSize = size, .contentKey = key, .sampler = "u_source"});
+    source = target;
+    size = targetSize;
+    remaining /= factor;
+    fromDepth = false;
+  }
+  auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag", {}});
+  if (!program) return program.error();
+  const std::string name = prefix + "dilated";
+  bounds.map = frame.graph.addResource(
+      {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
+  const std::uint64_t key = planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size));
+  addFilterPass(frame.graph, {.name = name, .program = *program, .source = source, .target = bounds.map,
+                              .sourceSize = size, .contentKey = key, .sampler = "u_source"});
+  return bounds;
+}
+
+void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
+  shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds.map});
+  // A hundredth of a texel more than the kernel: rounding of the plane offset must not fall outside.
+  const glm::vec4 mask(bounds.radiusTexels + 0.01, 0, 0, 0);
+  shading.setUniforms = [mask, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_mask", mask);
+  };
+}
+
+}  // namespace halfshadow::techniques

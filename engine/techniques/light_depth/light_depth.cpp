@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/light_depth/light_depth.hpp"
+
+#include "planner/frame_planner.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+using framegraph::Attachment;
+using framegraph::AttachmentPoint;
+using framegraph::Format;
+using framegraph::ResourceDesc;
+
+/// Writes of the depth pass; the last sampled one is the map.
+std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string& name, int size, DepthStorage storage,
+                                     framegraph::Lifetime lifetime, framegraph::ResourceId& map) {
+  const bool isTexture = storage == DepthStorage::texture24 || storage == DepthStorage::texture16;
+  ResourceDesc desc{.name = name, .width = size, .height = size, .lifetime = lifetime};
+  if (isTexture) {
+    desc.format = storage == DepthStorage::texture24 ? Format::depth24 : Format::depth16;
+    map = graph.addResource(desc);
+    return {{.resource = map, .point = AttachmentPoint::depth}};
+  }
+  map = graph.addResource(desc);
+  const auto depth = graph.addResource({.name = name + " depth test",
+                                        .width = size,
+                                        .height = size,
+                                        .format = Format::depth24,
+                                        .storage = framegraph::Storage::renderbuffer});
+  return {{.resource = map, .point = AttachmentPoint::color, .clear = {.color = {1, 1, 1, 1}}},
+          {.resource = depth, .point = AttachmentPoint::depth}};
+}
+
+void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, std::span<const DrawItem> items) {
+  const gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
+  for (const DrawItem& item : items) {
+    program.set(encoder.context(), "u_mapClipFromObject", glm::mat4(space.mapClipFromWorld * item.worldFromObject));
+    item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
+  }
+}
+}  // namespace
+
+Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content) {
+  LightDepth depth;
+  depth.storage = depthStorageFor(frame.capabilities);
+  depth.space = makeMapSpace(frame.fit, depth.storage);
+  const bool all = content == MapContent::castersAndReceivers;
+  const bool keyed = frame.mapLifetime == framegraph::Lifetime::persistent;
+  depth.contentKey = !keyed ? 0 : planner::combineKeys(all ? frame.sceneKey : frame.contentKey,
+                                          static_cast<std::uint64_t>(depth.storage) * 2 + (all ? 1 : 0));
+  const std::string name = "light " + std::to_string(frame.lightIndex) + (all ? " depth with receivers" : " depth") + frame.mapName;
+
+  const gl::Texture* ramp = nullptr;
+  if (depth.storage == DepthStorage::packed16) {
+    auto made = frame.shared.byteRamp(frame.context);
+    if (!made) return made.error();
+    ramp = *made;
+  }
+  auto program = frame.programs.get({"light_depth.vert", "light_depth.frag", depthDefines(depth.storage)});
+  if (!program) return program.error();
+
+  framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::light};
+  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime, depth.map);
+  pass.contentKey = depth.contentKey;
+  std::vector<DrawItem> items(frame.casters.begin(), frame.casters.end());
+  if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
+  pass.execute = [program = *program, ramp, space = depth.space, items = std::move(items)](framegraph::PassContext& context) {
+    gl::Encoder& encoder = context.encoder;
+    encoder.useProgram(*program);
+    program->set(encoder.context(), "u_nearDistance", static_cast<float>(space.nearDistance));
+    if (ramp) {
+      const gl::TextureBinding binding{program->samplerUnit("u_byteRamp"), ramp};
+      encoder.bindTextures({&binding, 1});
+    }
+    drawItems(encoder, *program, space, items);
+  };
+  frame.graph.addPass(std::move(pass));
+  return depth;
+}
+
+ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth, std::string fragmentFile) {
+  ReceiverShading shading;
+  shading.fragmentFile = std::move(fragmentFile);
+  shading.defines = depthDefines(depth.storage);
+  shading.mapFromWorld = depth.space.mapFromWorld;
+  shading.needsFacetNormal = usesFacetStream(frame.capabilities);
+  shading.textures = {{.sampler = "u_depthMap", .resource = depth.map}};
+  if (depth.storage == DepthStorage::packed16) {
+    if (auto ramp = frame.shared.byteRamp(frame.context)) shading.textures.push_back({.sampler = "u_byteRamp", .texture = *ramp});
+  }
+  const MapSpace& space = depth.space;
+  const double knob = frame.settings.real("bias");
+  // Without highp the map position itself is off by up to one texel, so every tap counts as "anywhere".
+  const double positionError = depth.storage == DepthStorage::packed16 ? 1.0 : 0.0;
+  const double size = space.mapSize;
+  // A quarter of the range per texel: the light grazes the facet, whose own shading is then dark anyway.
+  const double largestGradient = 0.25 * space.depthUnit;
+  const glm::vec4 map(size, 1.0 / size, space.nearDistance * space.depthUnit, largestGradient);
+  const glm::vec4 bias(knob * space.quantum * space.depthUnit, knob * (0.1 + positionError),
+                       knob * (0.6 + positionError), 0.0);
+  const glm::vec4 plane(space.nearDistance * space.depthUnit, size, size, largestGradient);
+  shading.setUniforms = [map, bias, plane](gl::Program& program, gl::Context& context) {
+    program.set(context, "u_map", map);
+    program.set(context, "u_bias", bias);
+    program.set(context, "u_vertexPlane", plane);
+  };
+  return shading;
+}
+
+void addPenumbraScale(ReceiverShading& shading, const MapSpace& space) {
+  const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit, space.nearestCasterDepth * space.depthUnit,
+                           space.farthestCasterDepth * space.depthUnit);
+  shading.setUniforms = [penumbra, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_penumbra", penumbra);
+  };
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/pcf/pcf.hpp"
+
+#include "techniques/edge_mask/edge_mask.hpp"
+#include "techniques/kernels/poisson_disc.hpp"
+#include "techniques/light_blocks/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+
+std::vector<SettingInfo> kernelSettings(const std::string& id) {
+  return {{id + ".size", SettingType::integer, "4", 2, 17, {}, "kernel side in texels (grid), disc diameter (poisson)"},
+          {id + ".pattern", SettingType::choice, "grid", 0, 0, {"grid", "poisson"}, "size x size grid, or a Poisson disc"},
+          {id + ".taps", SettingType::integer, "16", 4, 64, {}, "taps of the Poisson disc"},
+          {id + ".rotate", SettingType::choice, "off", 0, 0, {"off", "on"}, "turn the Poisson disc from pixel to pixel"}};
+}
+
+/// Radius in texels beyond which the kernel takes no tap, texel centring included.
+double kernelRadiusTexels(const LightFrame& frame, const std::string& id) {
+  const int size = frame.settings.integer(id + ".size");
+  // A disc's points leave the unit disc a little when they are centred; a tap moves to its texel's centre.
+  return frame.settings.choice(id + ".pattern") == "poisson" ? 0.5 * size * 1.25 + 0.75 : 0.5 * size + 0.5;
+}
+
+ReceiverShading kernelShading(const LightFrame& frame, const LightDepth& depth, const std::string& id,
+                              std::string fragmentFile) {
+  const Settings& settings = frame.settings;
+  ReceiverShading shading = mapReceiverShading(frame, depth, std::move(fragmentFile));
+  if (settings.choice(id + ".pattern") == "grid") {
+    shading.defines.push_back("HS_KERNEL " + settings.text(id + ".size"));
+    return shading;
+  }
+  const int taps = settings.integer(id + ".taps");
+  shading.defines.push_back("HS_POISSON_COUNT " + std::to_string(taps));
+  shading.defines.push_back(poissonTapsDefine(taps));
+  if (settings.choice(id + ".rotate") == "on") shading.defines.push_back("HS_ROTATE");
+  const glm::vec4 poisson(0.5 * settings.integer(id + ".size"), 0, 0, 0);
+  shading.setUniforms = [poisson, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_poisson", poisson);
+  };
+  return shading;
+}
+
+class Pcf final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "pcf",
+        .paper = "Reeves, Salesin, Cook 1987; Evans, Agenjo, Blat 2014, section 3.2",
+        .summary = "mean of depth comparisons over a fixed kernel",
+        .guarantees = "visibility is a multiple of 1/taps",
+        .knownFailures = "the penumbra is as wide everywhere, whatever the light's size"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override { return kernelSettings("pcf"); }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    auto depth = declareLightDepth(frame, MapContent::casters);
+    if (!depth) return depth.error();
+    return kernelShading(frame, *depth, "pcf", "pcf.frag");
+  }
+};
+
+FilterSkip skipFromSetting(const std::string& value) {
+  if (value == "branch") return FilterSkip::branch;
+  if (value == "loop") return FilterSkip::loop;
+  return FilterSkip::stencil;
+}
+
+class PcfMasked final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "pcf-masked",
+        .paper = "Evans, Agenjo, Blat 2014, section 4.3; Sander et al. 2005; block bounds: Halfshadow",
+        .summary = "pcf, filtered only where a mask says that taps can differ",
+        .guarantees = "mask=minmax: the image of pcf in every pixel",
+        .knownFailures = "the paper's Laplacian masks miss edges (mask=laplacian5, laplacian9)"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    auto settings = kernelSettings("pcf-masked");
+    settings.push_back({"pcf-masked.mask", SettingType::choice, "minmax", 0, 0, {"minmax", "laplacian5", "laplacian9"},
+                        "conservative block bounds, or the paper's edge filter of 5 or 9 taps"});
+    settings.push_back({"pcf-masked.skip", SettingType::choice, "auto", 0, 0, {"branch", "loop", "stencil", "auto"},
+                        "how unfiltered pixels skip the taps; auto: what the device profile measured as fastest"});
+    return settings;
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    const Settings& settings = frame.settings;
+    auto depth = declareLightDepth(frame, MapContent::casters);
+    if (!depth) return depth.error();
+    ReceiverShading shading = kernelShading(frame, *depth, "pcf-masked", "pcf_masked.frag");
+    const double radius = kernelRadiusTexels(frame, "pcf-masked");
+    if (settings.choice("pcf-masked.mask") == "minmax") {
+      auto bounds = declareBlockBounds(frame, *depth, radius);
+      if (!bounds) return bounds.error();
+      addBlockMask(shading, *bounds);
+    } else {
+      const EdgeFilter filter = settings.choice("pcf-masked.mask") == "laplacian5" ? EdgeFilter::laplacian5 : EdgeFilter::laplacian9;
+      auto mask = declareEdgeMask(frame, *depth, {.filter = filter, .radiusTexels = radius});
+      if (!mask) return mask.error();
+      shading.defines.push_back("HS_MASK_EDGES");
+      addEdgeMask(shading, *mask);
+    }
+    const std::string& skip = settings.choice("pcf-masked.skip");
+    shading.skip = skip == "auto" ? frame.preferredSkip : skipFromSetting(skip);
+    if (shading.skip == FilterSkip::loop && settings.choice("pcf-masked.pattern") == "poisson") {
+      shading.skip = FilterSkip::branch;  // the disc's taps are unrolled: there is no loop to bound
+    }
+    if (shading.skip == FilterSkip::loop) shading.defines.push_back("HS_SKIP_LOOP");
+    return shading;
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Technique> makePcf() { return std::make_unique<Pcf>(); }
+std::unique_ptr<Technique> makePcfMasked() { return std::make_unique<PcfMasked>(); }
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/pcf_quantized/pcf_quantized.hpp"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+#include "techniques/edge_mask/edge_mask.hpp"
+#include "techniques/light_blocks/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+
+/// Sides of the three kernels, narrow to wide, from a choice such as "3/5/7".
+std::array<int, 3> kernelSides(const std::string& text) {
+  std::array<int, 3> sides{};
+  const char* at = text.data();
+  for (int& side : sides) at = std::from_chars(at, text.data() + text.size(), side).ptr + 1;
+  return sides;
+}
+
+class PcfQuantized final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "pcf-quantized",
+        .paper = "Evans, Agenjo, Blat 2014, section 4.4; bands in reciprocal depth: Halfshadow",
+        .summary = "few kernel sizes, chosen per pixel by the quantised width of the penumbra",
+        .guarantees = "regions without casters cost two fetches",
+        .knownFailures = "a visible step where bands meet; preset=paper: corners and inner edges pick the wrong band"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    return {{"pcf-quantized.preset", SettingType::choice, "tuned", 0, 0, {"paper", "tuned"},
+             "paper: Laplacian strength in three channels; tuned: width by averaged blockers"},
+            {"pcf-quantized.kernels", SettingType::choice, "3/5/7", 0, 0, {"2/3/5", "3/5/7", "5/7/9"},
+             "taps per side of the three kernels"},
+            {"pcf-quantized.bands", SettingType::integer, "6", 3, 16, {}, "bands of the penumbra's width (tuned)"},
+            {"pcf-quantized.filter", SettingType::choice, "laplacian5", 0, 0, {"laplacian5", "laplacian9"},
+             "edge filter of preset=paper"}};
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    return frame.settings.choice("pcf-quantized.preset") == "paper" ? declarePaper(frame) : declareTuned(frame);
+  }
+
+ private:
+  static Result<ReceiverShading> declarePaper(const LightFrame& frame) {
+    // The paper's map holds the whole scene: an edge's strength is the step from caster to receiver.
+    auto depth = declareLightDepth(frame, MapContent::castersAndReceivers);
+    if (!depth) return depth.error();
+    const auto sides = kernelSides(frame.settings.choice("pcf-quantized.kernels"));
+    // The paper's thresholds .2, .5, .8 are kept; the strength is scaled so that 1 is the depth step whose
+    // penumbra is as wide as the largest kernel.
+    const double strength = std::max(depth->space.kernelTexelsPerDepth.x, depth->space.kernelTexelsPerDepth.y) / sides[2];
+    auto mask = declareEdgeMask(frame, *depth,
+                                {.filter = frame.settings.choice("pcf-quantized.filter") == "laplacian9"
+                                               ? EdgeFilter::laplacian9
+                                               : EdgeFilter::laplacian5,
+                                 .radiusTexels = 0.5 * sides[2],
+                                 .strengthPerDepth = std::max(strength, 1e-6)});
+    if (!mask) return mask.error();
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized_paper.frag");
+    addEdgeMask(shading, *mask);
+    addKernels(shading, sides);
+    return shading;
+  }
+
+  static Result<ReceiverShading> declareTuned(const LightFrame& frame) {
+    auto depth = declareLightDepth(frame, MapContent::casters);
+    if (!depth) return depth.error();
+    auto pyramid = declareBlockerPyramid(frame, *depth);
+    if (!pyramid) return pyramid.error();
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
+    addPenumbraScale(shading, depth->space);
+    addBlockerPyramid(shading, *depth, *pyramid);
+    addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
+
+    // Bands in equal ratios from the widest penumbra that this frame can have down to two texels.
+    const MapSpace& space = depth->space;
+    const double farthest = 1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+    const double widest = std::max(space.kernelTexelsPerDepth.x * (farthest - space.nearestCasterDepth), 2.0);
+    const int bands = frame.settings.integer("pcf-quantized.bands");
+    const double narrowest = std::max(widest * std::exp2(-0.5 * (bands - 1)), 1.0);
+    const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
+    const double aspect = space.kernelTexelsPerDepth.x > 0 ? space.kernelTexelsPerDepth.y / space.kernelTexelsPerDepth.x : 1.0;
+    const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, aspect);
+    shading.setUniforms = [bandUniform, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+      inner(program, context);
+      program.set(context, "u_bands", bandUniform);
+    };
+    return shading;
+  }
+
+  static void addKernels(ReceiverShading& shading, const std::array<int, 3>& sides) {
+    shading.defines.push_back("HS_LARGEST " + std::to_string(sides[2]));
+    const glm::vec4 kernels(sides[0], sides[1], sides[2], 0);
+    shading.setUniforms = [kernels, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+      inner(program, context);
+      program.set(context, "u_kernels", kernels);
+    };
+  }
+};
+
+}  // namespace
+
+std::unique_ptr<Technique> makePcfQuantized() { return std::make_unique<PcfQuantized>(); }
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/pcss/pcss.hpp"
+
+#include "techniques/light_depth/light_depth.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+class Pcss final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "pcss",
+        .paper = "Fernando 2005; Evans, Agenjo, Blat 2014, section 3.2",
+        .summary = "blocker search by taps, then a filter as wide as the penumbra",
+        .guarantees = "umbra and lit regions are exact where the search region holds one kind of texel",
+        .knownFailures = "one depth layer and one mean blocker: occluders at several heights share one width"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    return {{"pcss.search", SettingType::integer, "5", 3, 9, {}, "taps per side of the blocker search"},
+            {"pcss.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    auto depth = declareLightDepth(frame, MapContent::casters);
+    if (!depth) return depth.error();
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss.frag");
+    shading.defines.push_back("HS_SEARCH " + frame.settings.text("pcss.search"));
+    shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss.size"));
+    addPenumbraScale(shading, depth->space);
+    return shading;
+  }
+};
+}  // namespace
+
+std::unique_ptr<Technique> makePcss() { return std::make_unique<Pcss>(); }
+
+}  // namespace halfshadow::techniques

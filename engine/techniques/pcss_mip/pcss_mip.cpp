@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/pcss_mip/pcss_mip.hpp"
+
+#include "techniques/light_blocks/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+class PcssMip final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "pcss-mip",
+        .paper = "Fernando 2005, with the blocker search replaced (Halfshadow)",
+        .summary = "blocker search by two trilinear fetches of an occupancy pyramid, then a filter as wide as the penumbra",
+        .guarantees = "regions without casters cost two fetches",
+        .knownFailures = "on receivers that are in the map themselves the mean blocker includes their own surface"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    return {{"pcss-mip.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    auto depth = declareLightDepth(frame, MapContent::casters);
+    if (!depth) return depth.error();
+    auto pyramid = declareBlockerPyramid(frame, *depth);
+    if (!pyramid) return pyramid.error();
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
+    shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
+    addPenumbraScale(shading, depth->space);
+    addBlockerPyramid(shading, *depth, *pyramid);
+    return shading;
+  }
+};
+}  // namespace
+
+std::unique_ptr<Technique> makePcssMip() { return std::make_unique<PcssMip>(); }
+
+}  // namespace halfshadow::techniques

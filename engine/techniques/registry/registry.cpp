@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/registry/registry.hpp"
+
+#include "techniques/hard/hard.hpp"
+#include "techniques/none/none.hpp"
+#include "techniques/pcf/pcf.hpp"
+#include "techniques/pcf_quantized/pcf_quantized.hpp"
+#include "techniques/pcss/pcss.hpp"
+#include "techniques/pcss_mip/pcss_mip.hpp"
+#include "techniques/sampled/sampled.hpp"
+#include "techniques/vsm/vsm.hpp"
+
+namespace halfshadow::techniques {
+
+std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
+  std::vector<std::unique_ptr<Technique>> techniques;
+  for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip, makeVsm,
+                          makeSampled}) {
+    techniques.push_back(make());
+  }
+  return techniques;
+}
+
+std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique>>& techniques) {
+  std::vector<SettingInfo> settings = {
+      {"map_size", SettingType::integer, "1024", 16, 8192, {}, "side of depth maps in texels"},
+      {"bias", SettingType::real, "1.0", 0, 16, {},
+       "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"}};
+  for (const auto& technique : techniques) {
+    for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
+  }
+  return settings;
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// The conservative mask: the smallest and the largest stored depth of a neighbourhood of blocks that covers
+// every tap of the kernel. One fetch decides lit, umbra, or "the filter is needed".
+uniform HS_HIGHP sampler2D u_blockMap;
+// x: kernel radius in texels that the mask covers
+uniform HS_HIGHP vec4 u_mask;
+
+// 1: every tap is lit, 0: every tap is shadowed, -1: the filter decides. Exact: nothing is approximated, since
+// both bounds are rounded outward and the comparisons are those of the taps with the worst plane offset.
+float hs_maskClass() {
+  if (hs_lightMisses) return 1.0;
+  HS_COUNT(1);
+  HS_HIGHP vec2 uv = hs_texel * u_map.y;
+  HS_HIGHP vec4 bounds = texture2D(u_blockMap, uv);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
+#ifdef HS_DEPTH_PACKED16
+  HS_HIGHP float gapLow = hs_gap(bounds, hs_receiver);
+  HS_HIGHP float gapHigh = hs_gap(bounds.baba, hs_receiver);
+#else
+  HS_HIGHP vec4 bytes = floor(bounds * 255.0 + 0.5);
+  HS_HIGHP float gapLow = (bytes.r * 256.0 + bytes.g) * (1.0 / 65536.0) - hs_receiver;
+  // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
+  HS_HIGHP float gapHigh = (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver;
+#endif
+  if (gapLow >= -bias) return 1.0;
+  if (gapHigh < -bias - slope * u_mask.x) return 0.0;
+  return -1.0;
+}

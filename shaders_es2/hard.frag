@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "depth_storage.glsl"
+#include "receiver_inputs.glsl"
+#include "shadow_tap.glsl"
+float halfshadow_visibility() {
+  hs_prepare();
+  return hs_lightMisses ? 1.0 : hs_hardTap();
+}
+#include "receiver_main.glsl"

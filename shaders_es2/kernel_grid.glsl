@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Percentage closer filtering over HS_KERNEL x HS_KERNEL neighbouring texels, all taps at texel centres, so
+// that the receiver plane is compared exactly where depth was sampled.
+// Based on: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987, section 4.
+float hs_pcfGrid() {
+  HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
+  // First texel centre of the kernel that is centred on the receiver.
+  HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
+  HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
+  float lit = 0.0;
+#if HS_KERNEL <= 8
+  for (int y = 0; y < HS_KERNEL; ++y) {
+    for (int x = 0; x < HS_KERNEL; ++x) {
+      HS_HIGHP vec2 offset = vec2(float(x), float(y));
+      lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    }
+  }
+#else
+  // One flat loop: nested ones are unrolled by mobile compilers and no longer fit.
+  HS_HIGHP vec2 offset = vec2(0.0);
+  for (int i = 0; i < HS_KERNEL * HS_KERNEL; ++i) {
+    lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    offset.x += 1.0;
+    float wrapped = step(float(HS_KERNEL) - 0.5, offset.x);
+    offset += wrapped * vec2(-float(HS_KERNEL), 1.0);
+  }
+#endif
+  return lit * (1.0 / float(HS_KERNEL * HS_KERNEL));
+}
+
+// The same sum in one loop that ends after `count` taps (0 or all): drivers that evaluate both sides of an
+// `if` still leave a loop early.
+float hs_pcfGridBounded(float count) {
+  HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
+  HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
+  HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
+  float lit = 0.0;
+  HS_HIGHP vec2 offset = vec2(0.0);
+  for (int i = 0; i < HS_KERNEL * HS_KERNEL; ++i) {
+    if (float(i) >= count) break;
+    lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    offset.x += 1.0;
+    float wrapped = step(float(HS_KERNEL) - 0.5, offset.x);
+    offset += wrapped * vec2(-float(HS_KERNEL), 1.0);
+  }
+  return lit * (1.0 / float(HS_KERNEL * HS_KERNEL));
+}

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Percentage closer soft shadows whose blocker search is two fetches of an occupancy pyramid: one over the
+// widest region that could hold a blocker, one over the region that the first answer leaves.
+#include "depth_storage.glsl"
+#include "receiver_inputs.glsl"
+#include "shadow_tap.glsl"
+#include "kernel_spread.glsl"
+#include "blocker_pyramid.glsl"
+uniform HS_HIGHP vec4 u_penumbra;
+
+float halfshadow_visibility() {
+  hs_prepare();
+  HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
+  if (hs_lightMisses || widest <= 0.0) return 1.0;
+  HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest);
+  if (coarse.x <= 0.5 / 255.0) return 1.0;
+  HS_HIGHP float gap = max(hs_receiverValue - hs_meanBlockerDepth(coarse), 0.0);
+  HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(u_penumbra.x * gap, 1.0) * 1.25);
+  if (fine.x > 0.5 / 255.0) gap = max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
+  return hs_pcfSpread(max(u_penumbra.xy * gap, vec2(1.0)));
+}
+#include "receiver_main.glsl"

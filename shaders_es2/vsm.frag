@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Upper bound of the lit share from mean and variance of depth.
+// Based on: Donnelly, Lauritzen, "Variance Shadow Maps", 2006, section 3 (Chebyshev's inequality).
+#include "depth_storage.glsl"
+#include "receiver_inputs.glsl"
+#include "vsm_moments.glsl"
+uniform HS_HIGHP sampler2D u_moments;
+uniform HS_HIGHP vec4 u_momentRange;  // x: depth at 0, y: 1 / range, z: least variance, w: bias in moment units
+
+HS_HIGHP vec2 hs_momentsAt(HS_HIGHP vec2 texel) {
+  HS_COUNT(1);
+  return hs_unpackMoments(texture2D(u_moments, texel * u_map.y));
+}
+
+float halfshadow_visibility() {
+  hs_prepare();
+  if (hs_lightMisses) return 1.0;
+#ifdef HS_MOMENTS_8
+  HS_HIGHP vec2 moments = hs_momentsAt(hs_texel);
+#else
+  // Packed moments cannot be filtered by the sampler: four fetches and two mixes.
+  HS_HIGHP vec2 corner = floor(hs_texel - 0.5) + 0.5;
+  HS_HIGHP vec2 weight = hs_texel - corner;
+  HS_HIGHP vec2 moments = mix(mix(hs_momentsAt(corner), hs_momentsAt(corner + vec2(1.0, 0.0)), weight.x),
+                              mix(hs_momentsAt(corner + vec2(0.0, 1.0)), hs_momentsAt(corner + vec2(1.0)), weight.x), weight.y);
+#endif
+  HS_HIGHP float depth = clamp((hs_receiverValue - u_momentRange.x) * u_momentRange.y, 0.0, 1.0);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float beyond = depth - moments.x - u_momentRange.w - u_bias.z * slope * u_momentRange.y;
+  if (beyond <= 0.0) return 1.0;
+  HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);
+  return variance / (variance + beyond * beyond);
+}
+#include "receiver_main.glsl"
