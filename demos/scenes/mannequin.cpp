@@ -14,7 +14,8 @@
 namespace halfshadow::scenes {
 namespace {
 
-/// A cone with a ball at each end, blended into what comes before it over `blend`. In metres.
+/// A cone with a ball at each end, blended into what comes before it over `blend`. In metres. Cones that
+/// share a ball blend little: the rounding would swell the joint by a quarter of the blend.
 struct RoundCone {
   glm::dvec3 a, b;
   double radiusA, radiusB;
@@ -104,8 +105,8 @@ class Body {
               glm::dvec3 across) {
     const glm::dvec3 shoulder(side * 0.19, 1.44, -0.015);
     add(shoulder, 0.060, elbow, 0.040, 0.04);
-    add(elbow, 0.042, glm::mix(elbow, wrist, 0.35), 0.043, 0.025);
-    add(glm::mix(elbow, wrist, 0.35), 0.043, wrist, 0.026, 0.025);
+    add(elbow, 0.040, glm::mix(elbow, wrist, 0.35), 0.042, 0.01);
+    add(glm::mix(elbow, wrist, 0.35), 0.041, wrist, 0.026, 0.01);
     along = glm::normalize(along);
     across = glm::normalize(across - along * glm::dot(across, along));
     for (const double s : {-0.022, 0.0, 0.022}) {
@@ -127,8 +128,8 @@ class Body {
     const glm::dvec3 hip(side * 0.088, 0.92, 0.0);
     add(hip, 0.094, knee, 0.056, 0.04);
     const glm::dvec3 calf = glm::mix(knee, ankle, 0.32) - glm::dvec3(0, 0, 0.014);
-    add(knee, 0.054, calf, 0.056, 0.03);
-    add(calf, 0.056, ankle, 0.036, 0.03);
+    add(knee, 0.054, calf, 0.055, 0.01);
+    add(calf, 0.054, ankle, 0.036, 0.01);
     toeward = glm::normalize(toeward);
     const glm::dvec3 sideward(toeward.z, 0, -toeward.x);
     const glm::dvec3 heel = glm::dvec3(ankle.x, 0.033, ankle.z) - toeward * 0.035;

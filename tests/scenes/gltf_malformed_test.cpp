@@ -196,7 +196,7 @@ const Damage kDamages[] = {
     {"DeepExtras",
      [](auto& w) {
        Json nested = 1;
-       for (int i = 0; i < 5000; ++i) nested = Json::array({nested});
+       for (int i = 0; i < 500; ++i) nested = Json::array({nested});
        w.json["extras"] = nested;
      },
      kMalformed, "nested"},
