@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "measure/engine_session.hpp"
+
+#include <algorithm>
+#include <glm/gtc/type_ptr.hpp>
+
+namespace halfshadow::measure {
+namespace {
+void store(const glm::dvec3& vector, double target[3]) {
+  for (int i = 0; i < 3; ++i) target[i] = vector[i];
+}
+
+Status toStatus(const Outcome& outcome) {
+  return outcome.ok() ? Status{} : Status(Error{outcome.code, outcome.message});
+}
+
+ObjectDesc objectDesc(const scene::SceneObject& object) {
+  const scene::TriangleMesh& mesh = *object.mesh;
+  ObjectDesc desc{
+      .mesh = {.positions = glm::value_ptr(mesh.positions.front()),
+               .vertexCount = static_cast<std::uint32_t>(mesh.positions.size()),
+               .indices = mesh.indices.data(),
+               .indexCount = mesh.indices.size(),
+               .normals = mesh.normals.empty() ? nullptr : glm::value_ptr(mesh.normals.front()),
+               .texcoords = mesh.texcoords.empty() ? nullptr : glm::value_ptr(mesh.texcoords.front())},
+      .casts = object.casts,
+      .receives = object.receives};
+  std::copy_n(glm::value_ptr(object.worldFromObject), 16, desc.worldFromObject);
+  std::copy_n(glm::value_ptr(object.material.baseColor), 4, desc.baseColor);
+  if (const scene::Image* image = object.material.baseColorImage.get(); image && !mesh.texcoords.empty()) {
+    desc.baseColorPixels = image->pixels.data();
+    desc.baseColorWidth = image->width;
+    desc.baseColorHeight = image->height;
+    desc.baseColorChannels = image->channels;
+  }
+  return desc;
+}
+}  // namespace
+
+CameraDesc cameraDesc(const scene::Camera& camera) {
+  CameraDesc desc{.verticalFovRadians = camera.verticalFovRadians,
+                  .nearDistance = camera.nearDistance,
+                  .farDistance = camera.farDistance};
+  store(camera.eyeWorld, desc.eye);
+  store(camera.targetWorld, desc.target);
+  store(camera.up, desc.up);
+  return desc;
+}
+
+LightDesc lightDesc(const scene::AreaLight& light) {
+  LightDesc desc{.intensity = light.intensity};
+  store(light.centerWorld, desc.center);
+  store(light.halfU, desc.halfU);
+  store(light.halfV, desc.halfV);
+  store(light.emission, desc.emission);
+  for (int i = 0; i < 3; ++i) desc.color[i] = light.color[i];
+  return desc;
+}
+
+EngineSession::~EngineSession() = default;
+
+Result<std::unique_ptr<EngineSession>> EngineSession::open(const SessionOptions& options) {
+  auto context = createHeadless({.driver = options.driver, .eglLibrary = options.eglLibrary});
+  if (!context) return context.error();
+  std::unique_ptr<EngineSession> session(new EngineSession);
+  session->options_ = options;
+  session->context_ = std::move(context).value();
+  if (Status status = session->renewEngine(); !status) return status.error();
+  return session;
+}
+
+Status EngineSession::renewEngine() {
+  engine_.reset();  // before the new one: two engines' textures need not fit side by side
+  std::vector<const char*> forcedOff;
+  for (const std::string& name : options_.forcedOff) forcedOff.push_back(name.c_str());
+  Outcome outcome;
+  engine_.reset(Engine::create(
+      {.getProcAddress = [](const char* name,
+                            void* user) { return static_cast<HeadlessContext*>(user)->getProcAddress(name); },
+       .getProcAddressUser = context_.get(),
+       .forcedOff = forcedOff.data(),
+       .forcedOffCount = forcedOff.size(),
+       .hostState = HostState::leaveDirty},
+      outcome));
+  return toStatus(outcome);
+}
+
+int EngineSession::sizeLimit() const {
+  const DriverRecord driver = engine_->driver();
+  return std::min(driver.maxTextureSize, driver.maxRenderbufferSize);
+}
+
+Status EngineSession::load(const scene::SceneDescription& scene) {
+  for (const scene::SceneObject& object : scene.objects) {
+    ObjectId id = 0;
+    const Outcome outcome = engine_->addObject(objectDesc(object), id);
+    if (!outcome.ok()) {
+      return Error{outcome.code, scene.name + ": object \"" + object.name + "\": " + outcome.message};
+    }
+  }
+  return setLights({scene.lights.front()});
+}
+
+Status EngineSession::setLights(const std::vector<scene::AreaLight>& lights) {
+  std::vector<LightDesc> descs;
+  for (const scene::AreaLight& light : lights) descs.push_back(lightDesc(light));
+  return toStatus(engine_->setLights(descs.data(), descs.size()));
+}
+
+Status EngineSession::choose(const std::string& technique, const std::vector<Setting>& settings) {
+  if (Status status = toStatus(engine_->setTechnique(technique.c_str())); !status) return status;
+  return set(settings);
+}
+
+Status EngineSession::set(const std::vector<Setting>& settings) {
+  for (const Setting& setting : settings) {
+    if (Status status = toStatus(engine_->set(setting.key.c_str(), setting.value.c_str())); !status)
+      return status;
+  }
+  return {};
+}
+
+Status EngineSession::render(const RenderDesc& desc, FrameReport& report) {
+  return toStatus(engine_->render(desc, report));
+}
+
+Result<RgbaImage> EngineSession::read(int width, int height) {
+  RgbaImage image{width, height, {}};
+  image.pixels.resize(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * 4);
+  if (Status status = toStatus(engine_->readOutput(image.pixels.data(), image.pixels.size())); !status) {
+    return status.error();
+  }
+  return image;
+}
+
+std::vector<float> decodeVisibility(const RgbaImage& image, Output output) {
+  std::vector<float> visibility(image.pixels.size() / 4);
+  for (std::size_t i = 0; i < visibility.size(); ++i) {
+    const std::uint8_t* pixel = image.pixels.data() + 4 * i;
+    visibility[i] = output == Output::visibility16 ? static_cast<float>(256 * pixel[0] + pixel[1]) / 65280.0f
+                                                   : static_cast<float>(pixel[0]) / 255.0f;
+  }
+  return visibility;
+}
+
+std::vector<std::uint32_t> decodeTaps(const RgbaImage& image) {
+  std::vector<std::uint32_t> taps(image.pixels.size() / 4);
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    taps[i] = image.pixels[4 * i] + 256u * image.pixels[4 * i + 1];
+  }
+  return taps;
+}
+
+Output visibilityOutputOf(const std::string& technique) {
+  return technique == "sampled" ? Output::visibility16 : Output::visibility;
+}
+
+}  // namespace halfshadow::measure

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// A headless context with an engine in it that holds one scene: what the command line tool renders with.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "egl/headless.hpp"
+#include "halfshadow/halfshadow.hpp"
+#include "scene/scene_description.hpp"
+
+namespace halfshadow::measure {
+
+struct SessionOptions {
+  std::string driver = "default";        ///< see HeadlessOptions::driver
+  std::string eglLibrary;                ///< see HeadlessOptions::eglLibrary
+  std::vector<std::string> forcedOff{};  ///< capability names
+};
+
+struct Setting {
+  std::string key, value;  ///< "pcf.size", "7"
+};
+
+/// An image as the engine delivered it, row 0 on top.
+struct RgbaImage {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> pixels;  ///< width × height × 4
+};
+
+CameraDesc cameraDesc(const scene::Camera& camera);
+LightDesc lightDesc(const scene::AreaLight& light);
+
+class EngineSession {
+ public:
+  /// Opens the driver, makes its context current and an engine in it. Errors: invalidArgument (unknown driver
+  /// or capability), driverMissing.
+  static Result<std::unique_ptr<EngineSession>> open(const SessionOptions& options);
+  ~EngineSession();
+  EngineSession(const EngineSession&) = delete;
+  EngineSession& operator=(const EngineSession&) = delete;
+
+  Engine& engine() { return *engine_; }
+  /// Texture and renderbuffer limit of this device, pixels.
+  int sizeLimit() const;
+  /// How the context was opened, one line.
+  const std::string& contextDescription() const { return context_->description(); }
+
+  /// A new engine in the same context: no objects, no caches, default settings. Measurements start here, so
+  /// that none pays for, or profits from, what another left.
+  Status renewEngine();
+  /// Uploads the scene's objects and sets its first light (the scene has one). Only onto a new engine.
+  /// Errors: those of Engine::addObject, with the object's name.
+  Status load(const scene::SceneDescription& scene);
+  /// Replaces the light(s).
+  Status setLights(const std::vector<scene::AreaLight>& lights);
+  /// Errors: unknownTechnique, capabilityMissing, unknownSetting, invalidArgument.
+  Status choose(const std::string& technique, const std::vector<Setting>& settings);
+  Status set(const std::vector<Setting>& settings);
+
+  /// Renders one frame into the engine's own target. `report` is valid until the next call.
+  Status render(const RenderDesc& desc, FrameReport& report);
+  /// Pixels of the last frame.
+  Result<RgbaImage> read(int width, int height);
+
+ private:
+  EngineSession() = default;
+  SessionOptions options_;
+  std::unique_ptr<HeadlessContext> context_;
+  std::unique_ptr<Engine> engine_;
+};
+
+/// Which bytes of a visibility frame hold the value: Output::visibility or Output::visibility16.
+std::vector<float> decodeVisibility(const RgbaImage& image, Output output);
+/// Texture fetches per pixel of an Output::taps frame.
+std::vector<std::uint32_t> decodeTaps(const RgbaImage& image);
+
+/// What users get of a technique: 16 bits of `sampled` and 8 bits of all others.
+Output visibilityOutputOf(const std::string& technique);
+
+}  // namespace halfshadow::measure

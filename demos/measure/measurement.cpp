@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "measure/measurement.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace halfshadow::measure {
+namespace {
+using Clock = std::chrono::steady_clock;
+
+/// Relative to the light's distance: enough to count as another light, too little to change a texel.
+constexpr double kLightStep = 1e-7;
+
+ErrorSet errorsOn(std::span<const float> measured, const Truth& truth,
+                  std::span<const std::uint8_t> selected) {
+  return {.receiver = metrics::errorStatistics(measured, truth.visibility, selected),
+          .penumbra = metrics::errorStatistics(measured, truth.visibility,
+                                               metrics::penumbraMask(truth.visibility, selected))};
+}
+
+std::vector<std::uint8_t> ofKind(const Truth& truth, reference::ReceiverKind kind) {
+  std::vector<std::uint8_t> mask(truth.receivers.kind.size());
+  std::ranges::transform(truth.receivers.kind, mask.begin(),
+                         [kind](std::uint8_t k) { return k == kind ? 1 : 0; });
+  return mask;
+}
+
+Counters countersOf(const FrameReport& report) {
+  return {.passes = report.passCount,
+          .framebufferSwitches = report.framebufferSwitches,
+          .draws = report.draws,
+          .triangles = report.triangles,
+          .bytesLoaded = report.bytesLoaded,
+          .bytesStored = report.bytesStored,
+          .textureBytesUploaded = report.textureBytesUploaded,
+          .bufferBytesUploaded = report.bufferBytesUploaded};
+}
+
+/// Frames of one configuration, with a light that can be moved by less than anyone sees.
+class Rig {
+ public:
+  Rig(EngineSession& session, const scene::SceneDescription& scene, const Truth& truth, Output output)
+      : session_(session), light_(scene.lights.front()) {
+    desc_.camera = cameraDesc(*scene.camera);
+    desc_.target = {.width = truth.width, .height = truth.height};
+    desc_.output = output;
+    const scene::Bounds bounds = scene::boundsWorld(scene, scene::ObjectFilter::all);
+    step_ = kLightStep * std::max(glm::length(light_.centerWorld - bounds.center()), bounds.radius());
+  }
+
+  Status moveLight() {
+    moved_ = !moved_;
+    scene::AreaLight light = light_;
+    if (moved_) light.centerWorld -= scene::emissionDirection(light) * step_;
+    return session_.setLights({light});
+  }
+  Status restoreLight() {
+    moved_ = false;
+    return session_.setLights({light_});
+  }
+  Status render(FrameReport& report, Timing timing = Timing::off) {
+    RenderDesc desc = desc_;
+    desc.timing = timing;
+    return session_.render(desc, report);
+  }
+  Result<RgbaImage> image(Output output) {
+    RenderDesc desc = desc_;
+    desc.output = output;
+    FrameReport report;
+    if (Status status = session_.render(desc, report); !status) return status.error();
+    return session_.read(desc.target.width, desc.target.height);
+  }
+
+  enum class Motion { light, none };
+  Result<TimeStatistics> time(Motion motion, const MeasureOptions& options) {
+    std::vector<double> milliseconds;
+    for (int i = -options.warmUpFrames; i < options.timingFrames; ++i) {
+      session_.engine().finish();
+      const Clock::time_point start = Clock::now();
+      if (motion == Motion::light) {
+        if (Status status = moveLight(); !status) return status.error();
+      }
+      FrameReport report;
+      if (Status status = render(report); !status) return status.error();
+      session_.engine().finish();
+      const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
+      if (i >= 0) milliseconds.push_back(elapsed.count());
+    }
+    return timeStatistics(std::move(milliseconds));
+  }
+
+ private:
+  EngineSession& session_;
+  scene::AreaLight light_;
+  RenderDesc desc_;
+  double step_ = 0.0;
+  bool moved_ = false;
+};
+
+void recordPasses(const FrameReport& report, TechniqueMeasurement& result) {
+  for (std::size_t i = 0; i < report.passCount; ++i) {
+    const PassRecord& pass = report.passes[i];
+    result.passes.push_back({.name = pass.name,
+                             .target = pass.target,
+                             .draws = pass.draws,
+                             .triangles = pass.triangles,
+                             .clear = pass.clear,
+                             .load = pass.load,
+                             .store = pass.store,
+                             .discard = pass.discard,
+                             .lightSpace = pass.lightSpace,
+                             .bytesLoaded = pass.bytesLoaded,
+                             .bytesStored = pass.bytesStored,
+                             .timeMs = pass.milliseconds});
+  }
+  for (std::size_t i = 0; i < report.skipCount; ++i) {
+    result.skipped.push_back({report.skips[i].what, report.skips[i].why});
+  }
+}
+
+std::vector<Setting> effectiveSettings(Engine& engine, const std::string& technique) {
+  std::vector<Setting> settings;
+  for (std::size_t i = 0; i < engine.settingCount(); ++i) {
+    const SettingRecord record = engine.setting(i);
+    const std::string key = record.key;
+    if (key.starts_with(technique + ".") || key.find('.') == std::string::npos)
+      settings.push_back({key, record.value});
+  }
+  return settings;
+}
+
+/// Null when the engine has no such technique.
+const char* unsupportedReason(Engine& engine, const std::string& id) {
+  for (std::size_t i = 0; i < engine.techniqueCount(); ++i) {
+    const TechniqueRecord record = engine.technique(i);
+    if (id == record.id) return record.supported ? "" : record.unsupportedReason;
+  }
+  return nullptr;
+}
+
+double meanTaps(const std::vector<std::uint32_t>& taps, const std::vector<std::uint8_t>& selected) {
+  double sum = 0.0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < taps.size(); ++i) {
+    if (selected[i] != 0) sum += taps[i], ++count;
+  }
+  return count == 0 ? 0.0 : sum / static_cast<double>(count);
+}
+
+Status measureOn(Rig& rig, const Truth& truth, const MeasureOptions& options, Output output,
+                 TechniqueMeasurement& result) {
+  auto image = rig.image(output);
+  if (!image) return image.error();
+  result.visibility = decodeVisibility(*image, output);
+  result.error = errorsOn(result.visibility, truth, truth.receivers.kind);
+  result.errorOnGround = errorsOn(result.visibility, truth, ofKind(truth, reference::kGroundReceiver));
+  result.errorOnCasters = errorsOn(result.visibility, truth, ofKind(truth, reference::kCasterReceiver));
+
+  // Counters before the taps frame, whose programs and targets users never hold.
+  FrameReport report;
+  if (Status status = rig.moveLight(); !status) return status;
+  if (Status status = rig.render(report); !status) return status;
+  result.counters = countersOf(report);
+  result.memoryBytes = report.memoryBytes;
+  result.planText = report.planText;
+  if (Status status = rig.render(report); !status) return status;
+  result.countersStatic = countersOf(report);
+
+  if (options.timingFrames > 0) {
+    const auto dynamic = rig.time(Rig::Motion::light, options);
+    if (!dynamic) return dynamic.error();
+    result.time = *dynamic;
+    const auto unchanged = rig.time(Rig::Motion::none, options);
+    if (!unchanged) return unchanged.error();
+    result.timeStatic = *unchanged;
+  }
+  if (Status status = rig.moveLight(); !status) return status;
+  if (Status status = rig.render(report, Timing::perPass); !status) return status;
+  recordPasses(report, result);
+
+  if (Status status = rig.restoreLight(); !status) return status;
+  const auto taps = rig.image(Output::taps);
+  if (!taps) return taps.error();
+  result.counters.tapsPerPixel = result.countersStatic.tapsPerPixel =
+      meanTaps(decodeTaps(*taps), truth.receivers.kind);
+  return {};
+}
+}  // namespace
+
+TimeStatistics timeStatistics(std::vector<double> milliseconds) {
+  if (milliseconds.empty()) return {};
+  std::ranges::sort(milliseconds);
+  const auto rank = [&](double share) {
+    const auto count = static_cast<double>(milliseconds.size());
+    const auto index = static_cast<std::size_t>(std::max(std::ceil(share * count), 1.0)) - 1;
+    return milliseconds[std::min(index, milliseconds.size() - 1)];
+  };
+  return {.medianMs = rank(0.5),
+          .p95Ms = rank(0.95),
+          .minMs = milliseconds.front(),
+          .frames = static_cast<int>(milliseconds.size())};
+}
+
+std::vector<std::string> techniqueIds(EngineSession& session) {
+  std::vector<std::string> ids;
+  for (std::size_t i = 0; i < session.engine().techniqueCount(); ++i)
+    ids.emplace_back(session.engine().technique(i).id);
+  return ids;
+}
+
+Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scene::SceneDescription& scene,
+                                              const Truth& truth, const Configuration& configuration,
+                                              const MeasureOptions& options) {
+  if (Status status = session.renewEngine(); !status) return status.error();
+  Engine& engine = session.engine();
+  TechniqueMeasurement result{.id = configuration.technique};
+  if (Status status = session.set(configuration.settings); !status) return status.error();
+  result.settings = effectiveSettings(engine, result.id);
+  const char* reason = unsupportedReason(engine, result.id);
+  if (reason != nullptr && *reason != '\0') {
+    result.supported = false;
+    result.unsupportedReason = reason;
+    return result;
+  }
+  if (Status status = session.choose(result.id, {}); !status) return status.error();
+  if (Status status = session.load(scene); !status) return status.error();
+  const Output output = visibilityOutputOf(result.id);
+  Rig rig(session, scene, truth, output);
+  if (options.progress) options.progress(result.id, 0.0);
+  if (Status status = measureOn(rig, truth, options, output, result); !status) {
+    return Error{status.error().code, result.id + ": " + status.error().message};
+  }
+  if (options.progress) options.progress(result.id, 1.0);
+  return result;
+}
+
+}  // namespace halfshadow::measure

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Text files written whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "base/error.hpp"
+
+namespace halfshadow::measure {
+
+/// Writes beside the target and renames into place. Errors: fileNotWritable.
+Status writeTextFile(const std::filesystem::path& path, const std::string& text);
+
+/// Proves, before expensive work, that `path` can be written later: its folder exists and takes new files,
+/// and it is not a folder itself. Leaves nothing behind. Errors: fileNotWritable.
+Status checkWritable(const std::filesystem::path& path);
+
+}  // namespace halfshadow::measure
