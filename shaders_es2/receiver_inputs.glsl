@@ -32,6 +32,10 @@ void hs_prepare() {
   hs_lightMisses = v_map.z <= 0.0 || v_map.w <= 0.0;
   HS_HIGHP float inverseZ = 1.0 / (hs_lightMisses ? 1.0 : v_map.w);
   hs_texel = v_map.xy * (inverseZ * u_map.x);
+#ifdef HS_LIT_OUTSIDE
+  HS_HIGHP vec2 fromCenter = abs(hs_texel - 0.5 * u_map.x);
+  hs_lightMisses = hs_lightMisses || max(fromCenter.x, fromCenter.y) >= 0.5 * u_map.x;
+#endif
 #ifdef HS_DEPTH_PACKED16
   hs_receiver = floor(texture2DProj(u_byteRamp, v_ramp).rg * 255.0 + 0.5);
   hs_receiverValue = hs_receiver.x + hs_receiver.y * (1.0 / 256.0);

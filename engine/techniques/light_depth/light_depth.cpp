@@ -42,6 +42,7 @@ void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space
 
 Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content) {
   LightDepth depth;
+  depth.content = content;
   depth.storage = depthStorageFor(frame.capabilities);
   depth.space = makeMapSpace(frame.fit, depth.storage);
   const bool all = content == MapContent::castersAndReceivers;
@@ -82,6 +83,8 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   ReceiverShading shading;
   shading.fragmentFile = std::move(fragmentFile);
   shading.defines = depthDefines(depth.storage);
+  // The border of a map of casters is empty, so that clamped taps outside are lit; receivers fill the border.
+  if (depth.content == MapContent::castersAndReceivers) shading.defines.push_back("HS_LIT_OUTSIDE");
   shading.mapFromWorld = depth.space.mapFromWorld;
   shading.needsFacetNormal = usesFacetStream(frame.capabilities);
   shading.textures = {{.sampler = "u_depthMap", .resource = depth.map}};

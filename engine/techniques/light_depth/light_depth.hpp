@@ -46,6 +46,7 @@ struct LightDepth {
   DepthStorage storage = DepthStorage::texture24;
   MapSpace space;
   std::uint64_t contentKey = 0;
+  MapContent content = MapContent::casters;
 };
 /// Declares the depth pass (skipped by the plan while its content key is unchanged).
 Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content);

@@ -83,11 +83,16 @@ class Sampled final : public Technique {
     pass.writes = {{.resource = counts, .point = framegraph::AttachmentPoint::color, .initial = initial},
                    {.resource = depthTest, .point = framegraph::AttachmentPoint::depth, .initial = initial}};
     if (index > 0) pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
-    ReceiverTarget target{.depthIsComplete = index > 0, .additive = true};
+    ReceiverTarget target{.depthIsComplete = true, .additive = true};
     target.colorMask.fill(false);
     target.colorMask[static_cast<std::size_t>(index / kSamplesPerChannel)] = true;
-    pass.execute = [shading, programs = *programs, &view = frame.view, target,
+    pass.execute = [shading, programs = *programs, &view = frame.view, target, first = index == 0,
                     items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](framegraph::PassContext& context) {
+      // Depth first: what is covered later must not have been counted.
+      if (first) {
+        const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}};
+        drawReceivers(context, shading, programs, programs, view, items, nullptr, depthOnly);
+      }
       drawReceivers(context, shading, programs, programs, view, items, nullptr, target);
     };
     frame.graph.addPass(std::move(pass));
