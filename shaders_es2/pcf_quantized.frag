@@ -27,6 +27,12 @@ HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
   return exp2(u_bands.x + band / u_bands.y);
 }
 
+float halfshadow_class() {
+  hs_prepare();
+  HS_HIGHP float side;
+  return hs_bandWidth(side) < 0.0 ? 1.0 : -1.0;
+}
+
 float halfshadow_visibility() {
   hs_prepare();
   HS_HIGHP float side;

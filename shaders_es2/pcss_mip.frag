@@ -9,15 +9,27 @@
 #include "blocker_pyramid.glsl"
 uniform HS_HIGHP vec4 u_penumbra;
 
-float halfshadow_visibility() {
-  hs_prepare();
+// Width of the penumbra in texels, or -1: lit, -2: umbra.
+HS_HIGHP float hs_penumbraWidth() {
   HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
-  if (hs_lightMisses || widest <= 0.0) return 1.0;
+  if (hs_lightMisses || widest <= 0.0) return -1.0;
   HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest);
-  if (coarse.x <= 0.5 / 255.0) return 1.0;
+  if (coarse.x <= 0.5 / 255.0) return -1.0;
   HS_HIGHP float gap = max(hs_receiverValue - hs_meanBlockerDepth(coarse), 0.0);
   HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(u_penumbra.x * gap, 1.0) * 1.25);
   if (fine.x > 0.5 / 255.0) gap = max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
-  return hs_pcfSpread(max(u_penumbra.xy * gap, vec2(1.0)));
+  return u_penumbra.x * gap;
+}
+
+float halfshadow_class() {
+  hs_prepare();
+  return hs_penumbraWidth() < 0.0 ? 1.0 : -1.0;
+}
+
+float halfshadow_visibility() {
+  hs_prepare();
+  HS_HIGHP float width = hs_penumbraWidth();
+  if (width < 0.0) return 1.0;
+  return hs_pcfSpread(max(vec2(width, width * u_penumbra.y / u_penumbra.x), vec2(1.0)));
 }
 #include "receiver_main.glsl"

@@ -38,7 +38,10 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .casts = object.casts,
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
-          .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr};
+          .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
+          .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
+          .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
+          .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0};
 }
 
 techniques::ReceiverOutput receiverOutput(Output output) {
@@ -192,6 +195,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   auto frame = std::make_unique<Frame>();
   const double aspect = static_cast<double>(desc.target.width) / desc.target.height;
   frame->view = {.clipFromWorld = scene::clipFromView(camera, aspect) * scene::viewFromWorld(camera),
+                 .eyeWorld = camera.eyeWorld,
                  .width = desc.target.width,
                  .height = desc.target.height};
 

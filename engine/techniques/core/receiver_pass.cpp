@@ -124,6 +124,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
       if (binding.unit >= 0) encoder.bindTextures({&binding, 1});
     }
     setObjectUniforms(encoder.context(), *program, shading, view, item, inputs);
+    state.cull = hiddenFaces(item, view.eyeWorld);
     item.mesh->draw(encoder, state, streams);
   };
   const auto programsOf = [&](const DrawItem& item) -> const ReceiverPrograms& {

@@ -32,8 +32,9 @@ std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string
 }
 
 void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, std::span<const DrawItem> items) {
-  const gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
+  gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
   for (const DrawItem& item : items) {
+    state.cull = hiddenFaces(item, space.originWorld);
     program.set(encoder.context(), "u_mapClipFromObject", glm::mat4(space.mapClipFromWorld * item.worldFromObject));
     item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
   }

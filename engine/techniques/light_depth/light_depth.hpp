@@ -27,6 +27,7 @@ const char* depthStorageName(DepthStorage storage);
 struct MapSpace {
   glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z), s and t in [0, 1] over the map
   glm::dmat4 mapClipFromWorld{1.0};  ///< the same as OpenGL clip coordinates
+  glm::dvec3 originWorld{0.0};       ///< the point that the map is seen from
   double nearDistance = 1.0;
   double depthUnit = 1.0;            ///< 1, or 256 without highp: shaders count depth in 1/depthUnit of the range
   double quantum = 0.0;              ///< storage step plus rasterisation error, share of the range

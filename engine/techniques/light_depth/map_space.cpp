@@ -32,6 +32,7 @@ std::vector<std::string> depthDefines(DepthStorage storage) {
 MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage) {
   MapSpace space;
   space.mapSize = fit.mapSize;
+  space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
   space.nearDistance = fit.nearDistance;
   space.depthUnit = storage == DepthStorage::packed16 ? 256.0 : 1.0;
   const bool sixteenBits = storage == DepthStorage::texture16 || storage == DepthStorage::packed16;

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/core/technique.hpp"
+
+namespace halfshadow::techniques {
+
+gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld) {
+  const bool inside = glm::all(glm::greaterThanEqual(eyeWorld, item.boundsWorld.low)) &&
+                      glm::all(glm::lessThanEqual(eyeWorld, item.boundsWorld.high));
+  if (!item.closed || inside) return gl::Cull::none;
+  return item.mirrored ? gl::Cull::front : gl::Cull::back;
+}
+
+}  // namespace halfshadow::techniques
