@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Bounds over the 3 x 3 neighbouring blocks: afterwards one block covers every tap of a kernel whose radius is
-// at most one block, wherever in the block the receiver falls.
+// Bounds over the neighbouring blocks up to HS_REACH away: afterwards one block covers every tap of a kernel whose
+// radius is at most HS_REACH blocks, wherever in the block the receiver falls.
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
 uniform HS_HIGHP vec4 u_sourceSize;
@@ -13,14 +13,14 @@ float hs_lexicographicLess(vec2 a, vec2 b) {
 
 void main() {
   vec4 result = floor(texture2D(u_source, v_uv) * 255.0 + 0.5);
-  HS_HIGHP vec2 offset = vec2(-1.0);
-  for (int i = 0; i < 9; ++i) {
+  HS_HIGHP vec2 offset = vec2(-float(HS_REACH));
+  for (int i = 0; i < (2 * HS_REACH + 1) * (2 * HS_REACH + 1); ++i) {
     vec4 other = floor(texture2D(u_source, v_uv + offset * u_sourceSize.y) * 255.0 + 0.5);
     result.xy = mix(result.xy, other.xy, hs_lexicographicLess(other.xy, result.xy));
     result.zw = mix(result.zw, other.zw, hs_lexicographicLess(result.zw, other.zw));
     offset.x += 1.0;
-    float wrapped = step(1.5, offset.x);
-    offset += wrapped * vec2(-3.0, 1.0);
+    float wrapped = step(float(HS_REACH) + 0.5, offset.x);
+    offset += wrapped * vec2(-float(2 * HS_REACH + 1), 1.0);
   }
   gl_FragColor = (result + 0.25) / 255.0;
 }

@@ -7,11 +7,12 @@
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
 #include "blocker_pyramid.glsl"
+#include "block_mask.glsl"
 uniform HS_HIGHP vec4 u_penumbra;
 uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band, w: aspect
 uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
 
-// Width of the receiver's band in texels, or 1 or 0 visibility coded as -1 and -2.
+// Width of the receiver's band in texels, or -1: lit.
 HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
   side = 1.0;
   HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
@@ -29,12 +30,15 @@ HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
 
 float halfshadow_class() {
   hs_prepare();
-  HS_HIGHP float side;
-  return hs_bandWidth(side) < 0.0 ? 1.0 : -1.0;
+  return hs_maskClass();
 }
 
 float halfshadow_visibility() {
   hs_prepare();
+#ifndef HS_PHASE_FILTER
+  float known = hs_maskClass();
+  if (known > -0.5) return known;
+#endif
   HS_HIGHP float side;
   HS_HIGHP float width = hs_bandWidth(side);
   if (width < 0.0) return 1.0;

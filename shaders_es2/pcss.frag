@@ -7,11 +7,21 @@
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
+#include "block_mask.glsl"
 // xy: kernel width in texels per unit of depth difference, z: depth of the nearest caster
 uniform HS_HIGHP vec4 u_penumbra;
 
+float halfshadow_class() {
+  hs_prepare();
+  return hs_maskClass();
+}
+
 float halfshadow_visibility() {
   hs_prepare();
+#ifndef HS_PHASE_FILTER
+  float known = hs_maskClass();
+  if (known > -0.5) return known;
+#endif
   HS_HIGHP vec2 width = u_penumbra.xy * (hs_receiverValue - u_penumbra.z);
   if (hs_lightMisses || width.x <= 0.0) return 1.0;
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));

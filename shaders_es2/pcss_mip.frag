@@ -7,9 +7,10 @@
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
 #include "blocker_pyramid.glsl"
+#include "block_mask.glsl"
 uniform HS_HIGHP vec4 u_penumbra;
 
-// Width of the penumbra in texels, or -1: lit, -2: umbra.
+// Width of the penumbra in texels, or -1: lit.
 HS_HIGHP float hs_penumbraWidth() {
   HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
   if (hs_lightMisses || widest <= 0.0) return -1.0;
@@ -23,11 +24,15 @@ HS_HIGHP float hs_penumbraWidth() {
 
 float halfshadow_class() {
   hs_prepare();
-  return hs_penumbraWidth() < 0.0 ? 1.0 : -1.0;
+  return hs_maskClass();
 }
 
 float halfshadow_visibility() {
   hs_prepare();
+#ifndef HS_PHASE_FILTER
+  float known = hs_maskClass();
+  if (known > -0.5) return known;
+#endif
   HS_HIGHP float width = hs_penumbraWidth();
   if (width < 0.0) return 1.0;
   return hs_pcfSpread(max(vec2(width, width * u_penumbra.y / u_penumbra.x), vec2(1.0)));

@@ -27,18 +27,17 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
 
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth, double radiusTexels) {
   BlockBounds bounds{.radiusTexels = radiusTexels};
+  // Small blocks are tight but need a longer reach to cover the kernel; at most 9 x 9 fetches of a small image.
+  constexpr int kLongestReach = 4;
   bounds.blockTexels = 4;
-  while (bounds.blockTexels < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
+  while (bounds.blockTexels * kLongestReach < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
+  const int reach = std::max(1, static_cast<int>(std::ceil(radiusTexels / bounds.blockTexels)));
   int size = depth.space.mapSize;
-  if (size < 4 * bounds.blockTexels) {
-    return Error{ErrorCode::invalidArgument, "map_size=" + std::to_string(size) + " is too small for a kernel of radius " +
-                                                 std::to_string(static_cast<int>(radiusTexels)) + " texels; raise map_size"};
-  }
   const std::string prefix = "light " + std::to_string(frame.lightIndex) + " block bounds ";
   framegraph::ResourceId source = depth.map;
   int remaining = bounds.blockTexels;
   bool fromDepth = true;
-  while (remaining > 1) {
+  while (remaining > 1 || fromDepth) {
     const int factor = remaining % 4 == 0 ? 4 : 2;
     auto defines = depthDefines(depth.storage);
     defines.push_back("HS_FACTOR " + std::to_string(factor));
@@ -59,12 +58,12 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
     remaining /= factor;
     fromDepth = false;
   }
-  auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag", {}});
+  auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag", {"HS_REACH " + std::to_string(reach)}});
   if (!program) return program.error();
   const std::string name = prefix + "dilated";
   bounds.map = frame.graph.addResource(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
-  const std::uint64_t key = planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size));
+  const std::uint64_t key = planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
   addFilterPass(frame.graph, {.name = name, .program = *program, .source = source, .target = bounds.map,
                               .sourceSize = size, .contentKey = key, .sampler = "u_source"});
   return bounds;
@@ -78,6 +77,20 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
     inner(program, context);
     program.set(context, "u_mask", mask);
   };
+}
+
+Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
+  const double widest = widestPenumbraTexels(frame, depth.space);
+  auto bounds = declareBlockBounds(frame, depth, std::min(0.5 * widest + 1.0, 0.5 * depth.space.mapSize));
+  if (!bounds) return bounds.error();
+  addBlockMask(shading, *bounds);
+  shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
+  return {};
+}
+
+double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
+  const double farthest = 1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) * (farthest - space.nearestCasterDepth);
 }
 
 }  // namespace halfshadow::techniques

@@ -15,12 +15,18 @@ struct BlockBounds {
   int blockTexels = 8;
   double radiusTexels = 0.0;
 };
-/// Reduces in steps of at most 4 x 4 texels, then merges 3 x 3 blocks; the block is the smallest power of two
-/// that is at least the radius rounded up (and at least 4). Errors: invalidArgument when the map is smaller than
-/// four blocks.
+/// Reduces in steps of at most 4 x 4 texels to blocks of at least a quarter of the radius, then merges the
+/// neighbours that the radius reaches.
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth, double radiusTexels);
 /// Adds the mask's texture and uniform to a receiver program that includes block_mask.glsl.
 void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds);
+
+/// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
+double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space);
+
+/// For filters as wide as the penumbra: a mask that covers the widest one, so that one fetch finds the lit
+/// and the umbra receivers, and the way of skipping that goes with it.
+Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
 
 /// Occupied share and share times normalised depth, all mip levels in one atlas.
 struct BlockerPyramid {

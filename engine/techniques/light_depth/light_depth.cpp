@@ -34,7 +34,9 @@ std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string
 void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, std::span<const DrawItem> items) {
   gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
   for (const DrawItem& item : items) {
-    state.cull = hiddenFaces(item, space.originWorld);
+    // The map looks along +z of a right-handed space, so windings appear turned round.
+    const gl::Cull hidden = hiddenFaces(item, space.originWorld);
+    state.cull = hidden == gl::Cull::back ? gl::Cull::front : hidden == gl::Cull::front ? gl::Cull::back : hidden;
     program.set(encoder.context(), "u_mapClipFromObject", glm::mat4(space.mapClipFromWorld * item.worldFromObject));
     item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
   }

@@ -37,7 +37,7 @@ class PcfQuantized final : public Technique {
              "paper: Laplacian strength in three channels; tuned: width by averaged blockers"},
             {"pcf-quantized.kernels", SettingType::choice, "3/5/7", 0, 0, {"2/3/5", "3/5/7", "5/7/9"},
              "taps per side of the three kernels"},
-            {"pcf-quantized.bands", SettingType::integer, "6", 3, 16, {}, "bands of the penumbra's width (tuned)"},
+            {"pcf-quantized.bands", SettingType::integer, "8", 3, 16, {}, "bands of the penumbra's width (tuned)"},
             {"pcf-quantized.filter", SettingType::choice, "laplacian5", 0, 0, {"laplacian5", "laplacian9"},
              "edge filter of preset=paper"}};
   }
@@ -73,15 +73,14 @@ class PcfQuantized final : public Technique {
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
-    shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
+    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
     // Bands in equal ratios from the widest penumbra that this frame can have down to two texels.
     const MapSpace& space = depth->space;
-    const double farthest = 1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
-    const double widest = std::max(space.kernelTexelsPerDepth.x * (farthest - space.nearestCasterDepth), 2.0);
+    const double widest = std::max(widestPenumbraTexels(frame, space), 2.0);
     const int bands = frame.settings.integer("pcf-quantized.bands");
     const double narrowest = std::max(widest * std::exp2(-0.5 * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/pcss/pcss.hpp"
 
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/light_blocks/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -28,6 +28,7 @@ class Pcss final : public Technique {
     shading.defines.push_back("HS_SEARCH " + frame.settings.text("pcss.search"));
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss.size"));
     addPenumbraScale(shading, depth->space);
+    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
     return shading;
   }
 };

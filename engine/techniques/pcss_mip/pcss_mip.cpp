@@ -27,7 +27,7 @@ class PcssMip final : public Technique {
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
-    shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
+    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
     return shading;
