@@ -71,6 +71,8 @@ Result<std::unique_ptr<EngineSession>> EngineSession::open(const SessionOptions&
 }
 
 Status EngineSession::renewEngine() {
+  objectIds_.clear();
+  objects_.clear();
   engine_.reset();  // before the new one: two engines' textures need not fit side by side
   std::vector<const char*> forcedOff;
   for (const std::string& name : options_.forcedOff) forcedOff.push_back(name.c_str());
@@ -91,15 +93,54 @@ int EngineSession::sizeLimit() const {
   return std::min(driver.maxTextureSize, driver.maxRenderbufferSize);
 }
 
-Status EngineSession::load(const scene::SceneDescription& scene) {
+Status EngineSession::addObjects(const scene::SceneDescription& scene) {
   for (const scene::SceneObject& object : scene.objects) {
     ObjectId id = 0;
     const Outcome outcome = engine_->addObject(objectDesc(object), id);
     if (!outcome.ok()) {
       return Error{outcome.code, scene.name + ": object \"" + object.name + "\": " + outcome.message};
     }
+    objectIds_.push_back(id);
+    objects_.push_back(object);
   }
+  return {};
+}
+
+Status EngineSession::load(const scene::SceneDescription& scene) {
+  if (Status status = addObjects(scene); !status) return status;
   return setLights({scene.lights.front()});
+}
+
+Status EngineSession::updateObject(std::size_t index, const scene::SceneObject& object) {
+  scene::SceneObject& loaded = objects_[index];
+  const ObjectDesc desc = objectDesc(object);
+  if (loaded.worldFromObject != object.worldFromObject) {
+    if (Status s = toStatus(engine_->setTransform(objectIds_[index], desc.worldFromObject)); !s) return s;
+  }
+  if (loaded.mesh->positions != object.mesh->positions) {
+    if (Status s = toStatus(engine_->setVertices(objectIds_[index], desc.mesh)); !s) return s;
+  }
+  loaded = object;
+  return {};
+}
+
+Status EngineSession::update(const scene::SceneDescription& scene) {
+  const auto sameTriangles = [](const scene::SceneObject& a, const scene::SceneObject& b) {
+    return a.mesh->indices == b.mesh->indices && a.mesh->positions.size() == b.mesh->positions.size() &&
+           a.casts == b.casts && a.receives == b.receives;
+  };
+  if (std::ranges::equal(scene.objects, objects_, sameTriangles)) {
+    for (std::size_t i = 0; i < scene.objects.size(); ++i) {
+      if (Status status = updateObject(i, scene.objects[i]); !status) return status;
+    }
+    return {};
+  }
+  for (const ObjectId id : objectIds_) {
+    if (Status status = toStatus(engine_->removeObject(id)); !status) return status;
+  }
+  objectIds_.clear();
+  objects_.clear();
+  return addObjects(scene);
 }
 
 Status EngineSession::setLights(const std::vector<scene::AreaLight>& lights) {

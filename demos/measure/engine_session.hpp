@@ -56,6 +56,9 @@ class EngineSession {
   /// Uploads the scene's objects and sets its first light (the scene has one). Only onto a new engine.
   /// Errors: those of Engine::addObject, with the object's name.
   Status load(const scene::SceneDescription& scene);
+  /// Brings the objects of a loaded scene to those of `scene`: by new transforms and vertices where the
+  /// triangles stayed the same, else by loading all again. Lights stay. Errors: those of load.
+  Status update(const scene::SceneDescription& scene);
   /// Replaces the light(s).
   Status setLights(const std::vector<scene::AreaLight>& lights);
   /// Errors: unknownTechnique, capabilityMissing, unknownSetting, invalidArgument.
@@ -69,9 +72,13 @@ class EngineSession {
 
  private:
   EngineSession() = default;
+  Status addObjects(const scene::SceneDescription& scene);
+  Status updateObject(std::size_t index, const scene::SceneObject& object);
   SessionOptions options_;
   std::unique_ptr<HeadlessContext> context_;
   std::unique_ptr<Engine> engine_;
+  std::vector<ObjectId> objectIds_;
+  std::vector<scene::SceneObject> objects_;  ///< as loaded; meshes are shared
 };
 
 /// Which bytes of a visibility frame hold the value: Output::visibility or Output::visibility16.

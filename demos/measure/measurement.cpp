@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 
 namespace halfshadow::measure {
 namespace {
@@ -25,17 +24,6 @@ std::vector<std::uint8_t> ofKind(const Truth& truth, reference::ReceiverKind kin
   std::ranges::transform(truth.receivers.kind, mask.begin(),
                          [kind](std::uint8_t k) { return k == kind ? 1 : 0; });
   return mask;
-}
-
-Counters countersOf(const FrameReport& report) {
-  return {.passes = report.passCount,
-          .framebufferSwitches = report.framebufferSwitches,
-          .draws = report.draws,
-          .triangles = report.triangles,
-          .bytesLoaded = report.bytesLoaded,
-          .bytesStored = report.bytesStored,
-          .textureBytesUploaded = report.textureBytesUploaded,
-          .bufferBytesUploaded = report.bufferBytesUploaded};
 }
 
 /// Frames of one configuration, with a light that can be moved by less than anyone sees.
@@ -99,38 +87,6 @@ class Rig {
   bool moved_ = false;
 };
 
-void recordPasses(const FrameReport& report, TechniqueMeasurement& result) {
-  for (std::size_t i = 0; i < report.passCount; ++i) {
-    const PassRecord& pass = report.passes[i];
-    result.passes.push_back({.name = pass.name,
-                             .target = pass.target,
-                             .draws = pass.draws,
-                             .triangles = pass.triangles,
-                             .clear = pass.clear,
-                             .load = pass.load,
-                             .store = pass.store,
-                             .discard = pass.discard,
-                             .lightSpace = pass.lightSpace,
-                             .bytesLoaded = pass.bytesLoaded,
-                             .bytesStored = pass.bytesStored,
-                             .timeMs = pass.milliseconds});
-  }
-  for (std::size_t i = 0; i < report.skipCount; ++i) {
-    result.skipped.push_back({report.skips[i].what, report.skips[i].why});
-  }
-}
-
-std::vector<Setting> effectiveSettings(Engine& engine, const std::string& technique) {
-  std::vector<Setting> settings;
-  for (std::size_t i = 0; i < engine.settingCount(); ++i) {
-    const SettingRecord record = engine.setting(i);
-    const std::string key = record.key;
-    if (key.starts_with(technique + ".") || key.find('.') == std::string::npos)
-      settings.push_back({key, record.value});
-  }
-  return settings;
-}
-
 /// Null when the engine has no such technique.
 const char* unsupportedReason(Engine& engine, const std::string& id) {
   for (std::size_t i = 0; i < engine.techniqueCount(); ++i) {
@@ -178,7 +134,8 @@ Status measureOn(Rig& rig, const Truth& truth, const MeasureOptions& options, Ou
   }
   if (Status status = rig.moveLight(); !status) return status;
   if (Status status = rig.render(report, Timing::perPass); !status) return status;
-  recordPasses(report, result);
+  result.passes = passesOf(report);
+  result.skipped = skipsOf(report);
 
   if (Status status = rig.restoreLight(); !status) return status;
   const auto taps = rig.image(Output::taps);
@@ -189,27 +146,6 @@ Status measureOn(Rig& rig, const Truth& truth, const MeasureOptions& options, Ou
 }
 }  // namespace
 
-TimeStatistics timeStatistics(std::vector<double> milliseconds) {
-  if (milliseconds.empty()) return {};
-  std::ranges::sort(milliseconds);
-  const auto rank = [&](double share) {
-    const auto count = static_cast<double>(milliseconds.size());
-    const auto index = static_cast<std::size_t>(std::max(std::ceil(share * count), 1.0)) - 1;
-    return milliseconds[std::min(index, milliseconds.size() - 1)];
-  };
-  return {.medianMs = rank(0.5),
-          .p95Ms = rank(0.95),
-          .minMs = milliseconds.front(),
-          .frames = static_cast<int>(milliseconds.size())};
-}
-
-std::vector<std::string> techniqueIds(EngineSession& session) {
-  std::vector<std::string> ids;
-  for (std::size_t i = 0; i < session.engine().techniqueCount(); ++i)
-    ids.emplace_back(session.engine().technique(i).id);
-  return ids;
-}
-
 Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scene::SceneDescription& scene,
                                               const Truth& truth, const Configuration& configuration,
                                               const MeasureOptions& options) {
@@ -217,7 +153,7 @@ Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scen
   Engine& engine = session.engine();
   TechniqueMeasurement result{.id = configuration.technique};
   if (Status status = session.set(configuration.settings); !status) return status.error();
-  result.settings = effectiveSettings(engine, result.id);
+  result.settings = effectiveSettings(session, result.id);
   const char* reason = unsupportedReason(engine, result.id);
   if (reason != nullptr && *reason != '\0') {
     result.supported = false;

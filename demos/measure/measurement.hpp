@@ -65,6 +65,11 @@ struct Counters {
   double tapsPerPixel = 0.0;  ///< mean over receiver pixels
 };
 
+/// What a report says, as values that outlive it. Counters lack tapsPerPixel, which takes a frame of its own.
+Counters countersOf(const FrameReport& report);
+std::vector<PassMeasurement> passesOf(const FrameReport& report);
+std::vector<SkipMeasurement> skipsOf(const FrameReport& report);
+
 /// A technique with the settings that it is measured at; the others have their defaults.
 struct Configuration {
   std::string technique;
@@ -102,6 +107,9 @@ struct TechniqueMeasurement {
 Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scene::SceneDescription& scene,
                                               const Truth& truth, const Configuration& configuration,
                                               const MeasureOptions& options);
+
+/// Values of `<technique>.*` and of the settings that all techniques share.
+std::vector<Setting> effectiveSettings(EngineSession& session, const std::string& technique);
 
 /// All techniques of the session's engine, in its order.
 std::vector<std::string> techniqueIds(EngineSession& session);

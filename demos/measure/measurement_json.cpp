@@ -17,6 +17,15 @@ Json toJson(const TimeStatistics& time) {
   return {{"median", time.medianMs}, {"p95", time.p95Ms}, {"min", time.minMs}, {"frames", time.frames}};
 }
 
+}  // namespace
+
+Json toJson(const metrics::ErrorStatistics& statistics) {
+  return {{"mae", statistics.mae},       {"rmse", statistics.rmse},
+          {"bias", statistics.bias},     {"p99", statistics.p99},
+          {"max", statistics.max},       {"share_over_2_255", statistics.shareOver2Of255},
+          {"pixels", statistics.pixels}, {"nan_pixels", statistics.nanPixels}};
+}
+
 Json toJson(const Counters& counters) {
   return {{"passes", counters.passes},
           {"framebuffer_switches", counters.framebufferSwitches},
@@ -43,19 +52,23 @@ Json toJson(const PassMeasurement& pass) {
           {"bytes_stored", pass.bytesStored},
           {"time_ms", pass.timeMs}};
 }
-}  // namespace
 
-Json toJson(const metrics::ErrorStatistics& statistics) {
-  return {{"mae", statistics.mae},       {"rmse", statistics.rmse},
-          {"bias", statistics.bias},     {"p99", statistics.p99},
-          {"max", statistics.max},       {"share_over_2_255", statistics.shareOver2Of255},
-          {"pixels", statistics.pixels}, {"nan_pixels", statistics.nanPixels}};
+Json toJson(const std::vector<Setting>& settings) {
+  Json json = Json::object();
+  for (const Setting& setting : settings) json[setting.key] = setting.value;
+  return json;
+}
+
+Json toJson(const std::vector<SkipMeasurement>& skips) {
+  Json json = Json::array();
+  for (const SkipMeasurement& skip : skips) json.push_back({{"what", skip.what}, {"why", skip.why}});
+  return json;
 }
 
 Json toJson(const TechniqueMeasurement& measurement) {
-  Json settings = Json::object();
-  for (const Setting& setting : measurement.settings) settings[setting.key] = setting.value;
-  Json json{{"id", measurement.id}, {"settings", std::move(settings)}, {"supported", measurement.supported}};
+  Json json{{"id", measurement.id},
+            {"settings", toJson(measurement.settings)},
+            {"supported", measurement.supported}};
   if (!measurement.supported) {
     json["reason"] = measurement.unsupportedReason;
     return json;
@@ -70,10 +83,7 @@ Json toJson(const TechniqueMeasurement& measurement) {
   json["counters_static"] = toJson(measurement.countersStatic);
   json["passes"] = Json::array();
   for (const PassMeasurement& pass : measurement.passes) json["passes"].push_back(toJson(pass));
-  json["skipped"] = Json::array();
-  for (const SkipMeasurement& skip : measurement.skipped) {
-    json["skipped"].push_back({{"what", skip.what}, {"why", skip.why}});
-  }
+  json["skipped"] = toJson(measurement.skipped);
   return json;
 }
 

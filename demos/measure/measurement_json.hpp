@@ -15,6 +15,10 @@ namespace halfshadow::measure {
 using Json = nlohmann::ordered_json;
 
 Json toJson(const metrics::ErrorStatistics& statistics);
+Json toJson(const Counters& counters);
+Json toJson(const PassMeasurement& pass);
+Json toJson(const std::vector<Setting>& settings);
+Json toJson(const std::vector<SkipMeasurement>& skips);
 /// One entry of "techniques".
 Json toJson(const TechniqueMeasurement& measurement);
 /// {"vendor", "renderer", "version"}.

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "scenes/validate.hpp"
+
+#include <cstdio>
+
+#include "commands.hpp"
+#include "json.hpp"
+#include "options.hpp"
+#include "scenes/builtin_scenes.hpp"
+#include "scenes/gltf_loader.hpp"
+#include "text_table.hpp"
+
+namespace halfshadow::cli {
+namespace {
+struct Arguments {
+  std::string source, json;
+  double animationTimeSeconds = 0.0;
+  int animationIndex = 0;
+};
+
+/// The scene as it is stored: nothing fitted, nothing added.
+Result<scene::SceneDescription> openAsStored(const Arguments& arguments) {
+  constexpr std::string_view kBuiltin = "builtin:";
+  if (arguments.source.starts_with(kBuiltin)) {
+    return scenes::makeBuiltinScene(std::string_view(arguments.source).substr(kBuiltin.size()));
+  }
+  return scenes::loadGltf(arguments.source, {.animationTimeSeconds = arguments.animationTimeSeconds,
+                                             .animationIndex = arguments.animationIndex});
+}
+
+struct Expectation {
+  const char* techniques;
+  std::string outcome;
+};
+
+std::vector<Expectation> expectations(const scenes::ValidationReport& report) {
+  std::string nonManifold;
+  for (const scenes::ObjectReport& object : report.objects) {
+    if (object.casts && object.nonManifoldEdges > 0) nonManifold = object.name;
+  }
+  const std::string open =
+      std::to_string(report.openCasters) + " of " + std::to_string(report.casters) + " casters";
+  std::vector<Expectation> result;
+  result.push_back({"none, hard, pcf*, pcss*, vsm, sampled, occlusion-textures, shadow-width",
+                    report.casters == 0
+                        ? "no casters: every pixel is lit"
+                        : "work: they draw triangles into maps and ask nothing of the surface"});
+  if (report.casters == 0) {
+    result.push_back({"shadow-volume, wedges*", "no casters: every pixel is lit"});
+  } else if (report.openCasters > 0) {
+    result.push_back({"shadow-volume, wedges*", open + " are open: their boundaries count as silhouette "
+                                                       "edges, two-sided; close them for exact counts"});
+  } else {
+    result.push_back(
+        {"shadow-volume, wedges*", "work: all casters are closed, so silhouettes are closed loops"});
+  }
+  if (!nonManifold.empty()) {
+    result.push_back({"shadow-volume, wedges*", "edges with more than two triangles (\"" + nonManifold +
+                                                    "\") can leave silhouettes open; split the mesh there"});
+  }
+  return result;
+}
+
+Json boundsJson(const scene::Bounds& bounds) {
+  if (bounds.empty()) return nullptr;
+  return {{"low", {bounds.low.x, bounds.low.y, bounds.low.z}},
+          {"high", {bounds.high.x, bounds.high.y, bounds.high.z}}};
+}
+
+Json objectJson(const scenes::ObjectReport& object) {
+  return {{"name", object.name},
+          {"triangles", object.triangles},
+          {"vertices", object.vertices},
+          {"welded_vertices", object.weldedVertices},
+          {"closed", object.closed},
+          {"boundary_edges", object.boundaryEdges},
+          {"non_manifold_edges", object.nonManifoldEdges},
+          {"degenerate_dropped", object.degenerateDropped},
+          {"duplicate_dropped", object.duplicateDropped},
+          {"signed_volume", object.signedVolumeWorld},
+          {"bounds", boundsJson(object.boundsWorld)},
+          {"casts", object.casts},
+          {"receives", object.receives},
+          {"warnings", object.warnings}};
+}
+
+Json reportJson(const scenes::ValidationReport& report) {
+  Json json{{"scene", report.name},
+            {"triangles", report.triangles},
+            {"casters", report.casters},
+            {"open_casters", report.openCasters},
+            {"bounds", boundsJson(report.boundsWorld)},
+            {"caster_bounds", boundsJson(report.casterBoundsWorld)},
+            {"warnings", report.warnings}};
+  json["objects"] = Json::array();
+  for (const scenes::ObjectReport& object : report.objects) json["objects"].push_back(objectJson(object));
+  json["techniques"] = Json::array();
+  for (const Expectation& e : expectations(report)) {
+    json["techniques"].push_back({{"techniques", e.techniques}, {"outcome", e.outcome}});
+  }
+  return json;
+}
+
+void printReport(const scenes::ValidationReport& report) {
+  std::printf("%s: %llu triangles, %zu objects, %u cast shadows, %u of those are open\n", report.name.c_str(),
+              static_cast<unsigned long long>(report.triangles), report.objects.size(), report.casters,
+              report.openCasters);
+  TextTable table{.header = {"object", "triangles", "welded", "closed", "boundary", "non-manifold", "dropped",
+                             "casts", "receives"}};
+  for (const scenes::ObjectReport& object : report.objects) {
+    table.rows.push_back({object.name, std::to_string(object.triangles),
+                          std::to_string(object.weldedVertices), object.closed ? "yes" : "no",
+                          std::to_string(object.boundaryEdges), std::to_string(object.nonManifoldEdges),
+                          std::to_string(object.degenerateDropped + object.duplicateDropped),
+                          object.casts ? "yes" : "no", object.receives ? "yes" : "no"});
+  }
+  print(table);
+  for (const std::string& warning : report.warnings) std::printf("warning: %s\n", warning.c_str());
+  for (const scenes::ObjectReport& object : report.objects) {
+    for (const std::string& warning : object.warnings) {
+      std::printf("warning: %s: %s\n", object.name.c_str(), warning.c_str());
+    }
+  }
+  for (const Expectation& e : expectations(report)) std::printf("%s: %s\n", e.techniques, e.outcome.c_str());
+}
+
+ExitStatus validate(const Arguments& arguments) {
+  if (Status status = checkJsonPath(arguments.json); !status) return fail(status.error());
+  const auto scene = openAsStored(arguments);
+  if (!scene) return fail(scene.error());
+  const scenes::ValidationReport report = scenes::validateScene(*scene);
+  if (printsText(arguments.json)) printReport(report);
+  const Status written = writeJson(arguments.json, reportJson(report));
+  return written ? kDone : fail(written.error());
+}
+}  // namespace
+
+void addValidateCommand(CLI::App& app, ExitStatus& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command = app.add_subcommand(
+      "validate", "is a file fit for shadows: closed, manifold, scale; what techniques do with it");
+  command->add_option("FILE", arguments->source, "a .gltf or .glb file, or builtin:NAME")->required();
+  command->add_option("--animation-time", arguments->animationTimeSeconds, "seconds into the animation")
+      ->check(finiteProblem)
+      ->capture_default_str();
+  command
+      ->add_option("--animation", arguments->animationIndex, "number of the animation; -1 is the rest pose")
+      ->check(CLI::Range(-1, 1 << 20))
+      ->capture_default_str();
+  addJsonArgument(*command, arguments->json);
+  command->callback([arguments, &status] { status = validate(*arguments); });
+}
+
+}  // namespace halfshadow::cli

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Options that several commands share. All are checked while the command line is parsed, so that a bad one
+/// is bad usage and costs nothing.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "measure/engine_session.hpp"
+#include "scene/scene_description.hpp"
+#include "scenes/scene_source.hpp"
+
+namespace halfshadow::cli {
+
+struct SceneArguments {
+  std::string source;
+  std::string camera, light;  ///< empty = the scene's, or fitted
+  std::string ground = "auto";
+  double animationTimeSeconds = 0.0;
+  int animationIndex = 0;
+};
+
+struct SizeArguments {
+  std::string text = "640x480";
+  int width = 640, height = 480;
+};
+
+struct DriverArguments {
+  std::string driver = "default", eglLibrary;
+  std::vector<std::string> force;  ///< "depth-texture=off"
+};
+
+struct SettingArguments {
+  std::vector<std::string> texts;  ///< "pcf.size=7"
+};
+
+/// A check for real options: what is wrong with the text, or empty.
+std::string finiteProblem(const std::string& text);
+
+/// SCENE, --camera, --light, --ground, --animation-time, --animation.
+void addSceneArguments(CLI::App& app, SceneArguments& arguments);
+/// --size.
+void addSizeArgument(CLI::App& app, SizeArguments& arguments);
+/// --driver, --egl-library, --force.
+void addDriverArguments(CLI::App& app, DriverArguments& arguments);
+/// --set.
+void addSettingArguments(CLI::App& app, SettingArguments& arguments);
+/// --json.
+void addJsonArgument(CLI::App& app, std::string& path);
+
+scenes::SceneOptions sceneOptions(const SceneArguments& arguments);
+std::vector<measure::Setting> settingsOf(const SettingArguments& arguments);
+
+/// Opens the scene and says its notes on standard error. Its first light is the one that is measured.
+Result<scene::SceneDescription> openScene(const SceneArguments& arguments);
+Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments);
+/// invalidArgument when a side is above the device's limit.
+Status checkSize(const SizeArguments& size, const measure::EngineSession& session);
+
+}  // namespace halfshadow::cli
