@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"

@@ -3,6 +3,7 @@
 // Variable penumbrae by bands of the penumbra's width W in texels: the mean blocker of the neighbourhood gives W,
 // W falls into one of few bands, each band has one kernel, spread over the band's width.
 // Based on: Evans, Agenjo, Blat 2014, section 4.4, with widths in reciprocal depth instead of edge strengths.
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Kernels of three sizes, chosen by the channel of the dilated edge mask; hard where there is no edge.
 // Based on: Evans, Agenjo, Blat 2014, section 4.4.
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"

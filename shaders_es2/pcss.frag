@@ -3,6 +3,7 @@
 // Percentage closer soft shadows: a blocker search over the region that could hold blockers, the penumbra's
 // width from similar triangles in reciprocal depth, a filter of that width.
 // Based on: Fernando, "Percentage-Closer Soft Shadows", 2005.
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"

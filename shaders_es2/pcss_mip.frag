@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Percentage closer soft shadows whose blocker search is two fetches of an occupancy pyramid: one over the
 // widest region that could hold a blocker, one over the region that the first answer leaves.
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"

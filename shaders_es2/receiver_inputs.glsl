@@ -1,12 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // What a receiver fragment knows: its map coordinates, its depth, and the plane of its facet.
-#ifdef HS_COUNT_TAPS
-float hs_taps = 0.0;
-#define HS_COUNT(n) hs_taps += float(n)
-#else
-#define HS_COUNT(n)
-#endif
 varying HS_HIGHP vec4 v_map;
 // x: map size in texels, y: 1 / x, z: near distance in depth units, w: largest gradient per texel
 uniform HS_HIGHP vec4 u_map;

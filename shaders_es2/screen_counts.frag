@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Visibility from counts of shadowed light samples, accumulated on the screen.
-#include "depth_storage.glsl"
-#include "receiver_inputs.glsl"
+#include "tap_count.glsl"
 uniform HS_HIGHP sampler2D u_counts;
 uniform HS_HIGHP vec4 u_screen;  // xy: 1 / size of the count image, z: 255 / samples, w: y offset of the viewport
 float halfshadow_visibility() {

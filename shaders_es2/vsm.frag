@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Upper bound of the lit share from mean and variance of depth.
 // Based on: Donnelly, Lauritzen, "Variance Shadow Maps", 2006, section 3 (Chebyshev's inequality).
+#include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "vsm_moments.glsl"
