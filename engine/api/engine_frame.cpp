@@ -128,16 +128,9 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
-  const techniques::ReceiverOutput output = receiverOutput(desc.output);
-  auto plain = techniques::receiverPrograms(*programs, target.shading, output, false);
-  if (!plain) return plain.error();
-  target.programs = target.texturedPrograms = *plain;
-  const bool textured = std::ranges::any_of(frame.receivers, [](const auto& item) { return item.baseColorTexture != nullptr; });
-  if (textured && desc.output == Output::shaded) {
-    auto made = techniques::receiverPrograms(*programs, target.shading, output, true);
-    if (!made) return made.error();
-    target.texturedPrograms = *made;
-  }
+  auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc.output), frame.receivers);
+  if (!linked) return linked.error();
+  target.programs = *linked;
   return {};
 }
 
@@ -174,8 +167,7 @@ void Engine::State::declareReceiverPass(Frame& frame, const RenderDesc& desc) {
         receiverTarget.colorMask.fill(false);
         receiverTarget.colorMask[i] = true;
       }
-      techniques::drawReceivers(passContext, light.shading, light.programs, light.texturedPrograms, frame.view,
-                                frame.receivers, shaded ? &light.shadingInputs : nullptr, receiverTarget);
+      techniques::drawReceivers(passContext, light.shading, light.programs, frame.view, frame.receivers, shaded ? &light.shadingInputs : nullptr, receiverTarget);
     }
   };
   frame.graph.addPass(std::move(pass));

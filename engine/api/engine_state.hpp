@@ -55,7 +55,7 @@ struct FrameLight {
   std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
   techniques::ShadingInputs shadingInputs;
-  techniques::ReceiverPrograms programs, texturedPrograms;
+  techniques::ReceiverProgramSet programs;
 };
 
 /// Lives from declaration to execution of one frame.

@@ -122,6 +122,7 @@ class ProgramCache {
   Result<Program*> get(const ProgramVariant& variant);
   void clear();
   std::size_t size() const { return programs_.size(); }
+  const Capabilities& capabilities() const { return context_.capabilities(); }
 
  private:
   Context& context_;

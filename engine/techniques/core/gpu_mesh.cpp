@@ -8,6 +8,9 @@
 namespace halfshadow::techniques {
 namespace {
 constexpr std::size_t kShortIndexVertices = 65536;
+/// Up to here three vertices a triangle cost less than derivatives in every fragment: 288 KiB, a few percent of
+/// one 1024 x 1024 depth map.
+constexpr std::uint32_t kFewTriangles = 4096;
 
 template <typename T>
 std::span<const std::byte> bytesOf(const std::vector<T>& values) {
@@ -46,7 +49,7 @@ Status refresh(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target
 }
 }  // namespace
 
-bool usesFacetStream(const gl::Capabilities& capabilities) {
+bool needsFacetStream(const gl::Capabilities& capabilities) {
   return !capabilities.has(gl::Capability::derivatives) || !capabilities.has(gl::Capability::highp);
 }
 
@@ -81,7 +84,7 @@ Status GpuMesh::upload(gl::Context& context, const scene::TriangleMesh& mesh) {
     const auto normals = gathered(mesh.normals, sourceVertex_);
     if (Status s = refresh(context, normals_, gl::BufferTarget::vertex, bytesOf(normals)); !s) return s;
   }
-  if (usesFacetStream(context.capabilities())) {
+  if (needsFacetStream(context.capabilities()) || mesh.triangleCount() <= kFewTriangles) {
     const auto facets = facetStream(mesh);
     facetVertexCount_ = facets.size() / 2;
     if (Status s = refresh(context, facet_, gl::BufferTarget::vertex, bytesOf(facets)); !s) return s;

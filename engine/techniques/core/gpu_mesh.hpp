@@ -13,12 +13,12 @@
 namespace halfshadow::techniques {
 
 /// True where receivers need facet normals as a vertex attribute: no derivatives, or none precise enough.
-bool usesFacetStream(const gl::Capabilities& capabilities);
+bool needsFacetStream(const gl::Capabilities& capabilities);
 
 /// Streams of one mesh: positions (12 bytes a vertex) with indices; normals and texture coordinates where the
-/// source has them (read by shading only); and, where derivatives or highp are missing, a facet stream (position and
-/// facet normal, 24 bytes, three vertices a triangle), since the receiver-plane bias needs the exact facet
-/// plane. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
+/// source has them (read by shading only); and a facet stream (position and facet normal, 24 bytes, three vertices
+/// a triangle), since the receiver-plane bias needs the exact facet plane: for every mesh where derivatives or
+/// highp are missing, elsewhere for meshes of few triangles, whose fragments then need no derivatives. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
 class GpuMesh {
  public:
   enum class Streams { positions, facet, shading };
@@ -27,7 +27,8 @@ class GpuMesh {
   /// Replaces positions and normals (same topology): animated casters. Errors: outOfMemory, invalidArgument.
   Status update(gl::Context& context, const scene::TriangleMesh& mesh);
 
-  /// `facet` falls back to `positions` where derivatives exist. One draw per range.
+  bool hasFacetStream() const { return static_cast<bool>(facet_); }
+  /// `facet` only where hasFacetStream(). One draw per range.
   void draw(gl::Encoder& encoder, const gl::DrawState& state, Streams streams) const;
   std::uint64_t memoryBytes() const;
 

@@ -29,12 +29,18 @@ void bindTextures(framegraph::PassContext& context, gl::Program& program, const 
   context.encoder.bindTextures(bindings);
 }
 
+/// What an item offers that the output can use. The facet stream has no smooth normals and no texture
+/// coordinates, so shading takes it only where there are no derivatives to replace it.
+bool takesFacets(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
+  return shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives);
+}
+
 void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
-                       const DrawItem& item, const ShadingInputs* inputs) {
+                       const DrawItem& item, bool facets, const ShadingInputs* inputs) {
   program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
   const glm::dmat4 mapFromObject = shading.mapFromWorld * item.worldFromObject;
   program.set(gl, "u_mapFromObject", glm::mat4(mapFromObject));
-  if (shading.needsFacetNormal) {
+  if (facets) {
     // Rows s·z, t·z and z of the map are the space in which the facet's plane is taken.
     glm::dmat3 planeFromObject(0.0);
     for (int column = 0; column < 3; ++column) {
@@ -73,12 +79,13 @@ std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading
   return resources;
 }
 
-Result<ReceiverPrograms> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
-                                          ReceiverOutput output, bool baseColorTexture) {
+namespace {
+Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading, ReceiverOutput output,
+                                      bool facets, bool textured) {
   ReceiverPrograms result;
   std::vector<std::string> defines = shading.defines;
-  if (shading.needsFacetNormal) defines.push_back("HS_FACET_NORMAL");
-  for (std::string& define : outputDefines(output, baseColorTexture)) defines.push_back(std::move(define));
+  if (facets) defines.push_back("HS_FACET_NORMAL");
+  for (std::string& define : outputDefines(output, textured)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
     variant.insert(variant.end(), extra.begin(), extra.end());
@@ -96,23 +103,39 @@ Result<ReceiverPrograms> receiverPrograms(gl::ProgramCache& programs, const Rece
   }
   return result;
 }
+}  // namespace
 
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverPrograms& programs,
-                   const ReceiverPrograms& texturedPrograms, const View& view, std::span<const DrawItem> items,
-                   const ShadingInputs* inputs, const ReceiverTarget& target) {
+Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
+                                            ReceiverOutput output, std::span<const DrawItem> items) {
+  ReceiverProgramSet set;
+  const bool shaded = output == ReceiverOutput::shaded;
+  for (const DrawItem& item : items) {
+    const bool facets = takesFacets(shading, item, shaded, programs.capabilities().has(gl::Capability::derivatives));
+    const bool textured = shaded && item.baseColorTexture != nullptr;
+    ReceiverPrograms& slot = set.byItem[facets][textured];
+    if (slot.whole || slot.filter) continue;
+    auto linked = linkPrograms(programs, shading, output, facets, textured);
+    if (!linked) return linked.error();
+    slot = *linked;
+  }
+  return set;
+}
+
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverProgramSet& programs,
+                   const View& view, std::span<const DrawItem> items, const ShadingInputs* inputs,
+                   const ReceiverTarget& target) {
   gl::Encoder& encoder = context.encoder;
+  const bool derivatives = encoder.context().capabilities().has(gl::Capability::derivatives);
   gl::DrawState state;
   state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less, .write = !target.depthIsComplete};
   state.colorMask = target.colorMask;
   if (target.additive) {
     state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
   }
-  const auto streams = [&] {
-    if (inputs) return shading.needsFacetNormal ? GpuMesh::Streams::facet : GpuMesh::Streams::shading;
-    return shading.needsFacetNormal ? GpuMesh::Streams::facet : GpuMesh::Streams::positions;
-  }();
   gl::Program* current = nullptr;
-  const auto drawItem = [&](gl::Program* program, const DrawItem& item) {
+  const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
+    const bool facets = takesFacets(shading, item, inputs != nullptr, derivatives);
+    gl::Program* program = programs.of(facets, inputs && item.baseColorTexture).*phase;
     if (program != current) {
       current = program;
       encoder.useProgram(*program);
@@ -121,17 +144,15 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
     }
     if (item.baseColorTexture && inputs) {
       const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
-      if (binding.unit >= 0) encoder.bindTextures({&binding, 1});
+      encoder.bindTextures({&binding, 1});
     }
-    setObjectUniforms(encoder.context(), *program, shading, view, item, inputs);
+    setObjectUniforms(encoder.context(), *program, shading, view, item, facets, inputs);
     state.cull = hiddenFaces(item, view.eyeWorld);
-    item.mesh->draw(encoder, state, streams);
+    item.mesh->draw(encoder, state,
+                    facets ? GpuMesh::Streams::facet : inputs ? GpuMesh::Streams::shading : GpuMesh::Streams::positions);
   };
-  const auto programsOf = [&](const DrawItem& item) -> const ReceiverPrograms& {
-    return item.baseColorTexture && inputs && texturedPrograms.whole != programs.whole ? texturedPrograms : programs;
-  };
-  if (programs.classify == nullptr) {
-    for (const DrawItem& item : items) drawItem(programsOf(item).whole, item);
+  if (shading.skip != FilterSkip::stencil || programs.of(false, false).whole || programs.of(true, false).whole) {
+    for (const DrawItem& item : items) draw(item, &ReceiverPrograms::whole);
     return;
   }
   // Casters are their own neighbours in the map, so the mask leaves nearly all their pixels to the filter: they
@@ -139,13 +160,13 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   // that the mask decides write colour and depth; the second draw fails the depth test there and filters the
   // rest.
   for (const DrawItem& item : items) {
-    if (item.casts) drawItem(programsOf(item).filter, item);
+    if (item.casts) draw(item, &ReceiverPrograms::filter);
   }
   for (const DrawItem& item : items) {
-    if (!item.casts) drawItem(programsOf(item).classify, item);
+    if (!item.casts) draw(item, &ReceiverPrograms::classify);
   }
   for (const DrawItem& item : items) {
-    if (!item.casts) drawItem(programsOf(item).filter, item);
+    if (!item.casts) draw(item, &ReceiverPrograms::filter);
   }
 }
 

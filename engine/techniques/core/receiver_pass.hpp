@@ -22,20 +22,20 @@ struct ShadingInputs {
   double referenceDistance = 1.0;  ///< at which the light's intensity counts 1
 };
 
-/// One light's visibility and where it goes.
-struct ReceiverLight {
-  const ReceiverShading* shading = nullptr;
-  const ShadingInputs* shadingInputs = nullptr;  ///< for ReceiverOutput::shaded
-};
-
 /// Programs of one light, ready to draw; made while declaring so that a shader error is a frame's error.
 struct ReceiverPrograms {
   gl::Program* whole = nullptr;     ///< every fragment
   gl::Program* classify = nullptr;  ///< FilterSkip::stencil: draws what needs no filter, discards the rest
   gl::Program* filter = nullptr;    ///< FilterSkip::stencil: the rest
 };
-Result<ReceiverPrograms> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
-                                          ReceiverOutput output, bool baseColorTexture);
+/// The same by what an item offers: its facet stream, its base colour texture.
+struct ReceiverProgramSet {
+  ReceiverPrograms byItem[2][2];
+  const ReceiverPrograms& of(bool facet, bool textured) const { return byItem[facet][textured]; }
+};
+/// Links what `items` need. Errors: shaderFailed.
+Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
+                                            ReceiverOutput output, std::span<const DrawItem> items);
 
 /// How the receivers' colours reach the target.
 struct ReceiverTarget {
@@ -45,9 +45,10 @@ struct ReceiverTarget {
 };
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverPrograms& programs,
-                   const ReceiverPrograms& texturedPrograms, const View& view, std::span<const DrawItem> items,
-                   const ShadingInputs* shadingInputs, const ReceiverTarget& target);
+/// `shadingInputs`: of ReceiverOutput::shaded, else null.
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverProgramSet& programs,
+                   const View& view, std::span<const DrawItem> items, const ShadingInputs* shadingInputs,
+                   const ReceiverTarget& target);
 
 /// Resources that the pass must list as read.
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading);

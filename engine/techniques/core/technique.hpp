@@ -107,7 +107,7 @@ struct ReceiverShading {
   std::function<void(gl::Program&, gl::Context&)> setUniforms;
   glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
   FilterSkip skip = FilterSkip::none;
-  bool needsFacetNormal = false;     ///< receiver-plane bias
+  bool usesFacetPlane = false;       ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   bool forward = true;               ///< may be evaluated inside a host's own fragment shader
 };
 

@@ -89,7 +89,7 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   // The border of a map of casters is empty, so that clamped taps outside are lit; receivers fill the border.
   if (depth.content == MapContent::castersAndReceivers) shading.defines.push_back("HS_LIT_OUTSIDE");
   shading.mapFromWorld = depth.space.mapFromWorld;
-  shading.needsFacetNormal = usesFacetStream(frame.capabilities);
+  shading.usesFacetPlane = true;
   shading.textures = {{.sampler = "u_depthMap", .resource = depth.map}};
   if (depth.storage == DepthStorage::packed16) {
     if (auto ramp = frame.shared.byteRamp(frame.context)) shading.textures.push_back({.sampler = "u_byteRamp", .texture = *ramp});

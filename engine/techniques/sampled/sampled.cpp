@@ -73,7 +73,7 @@ class Sampled final : public Technique {
     if (!depth) return depth.error();
     ReceiverShading shading = mapReceiverShading(sample, *depth, "hard.frag");
     shading.defines.push_back("HS_COUNT_SHADOWED");
-    auto programs = receiverPrograms(frame.programs, shading, ReceiverOutput::visibility, false);
+    auto programs = receiverPrograms(frame.programs, shading, ReceiverOutput::visibility, frame.receivers);
     if (!programs) return programs.error();
 
     framegraph::PassDesc pass{.name = "light " + std::to_string(frame.lightIndex) + " count sample " + std::to_string(index),
@@ -91,9 +91,9 @@ class Sampled final : public Technique {
       // Depth first: what is covered later must not have been counted.
       if (first) {
         const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}};
-        drawReceivers(context, shading, programs, programs, view, items, nullptr, depthOnly);
+        drawReceivers(context, shading, programs, view, items, nullptr, depthOnly);
       }
-      drawReceivers(context, shading, programs, programs, view, items, nullptr, target);
+      drawReceivers(context, shading, programs, view, items, nullptr, target);
     };
     frame.graph.addPass(std::move(pass));
     return {};
