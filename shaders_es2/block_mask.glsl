@@ -28,3 +28,14 @@ float hs_maskClass() {
   if (gapHigh < -bias - slope * u_mask.x) return 0.0;
   return -1.0;
 }
+
+// Depth of the nearest caster that a kernel as wide as the mask can meet, depth units.
+HS_HIGHP float hs_nearestAround() {
+  HS_COUNT(1);
+  HS_HIGHP vec4 bytes = floor(texture2D(u_blockMap, hs_texel * u_map.y) * 255.0 + 0.5);
+#ifdef HS_DEPTH_PACKED16
+  return bytes.r + bytes.g * (1.0 / 256.0);
+#else
+  return (bytes.r * 256.0 + bytes.g) * (1.0 / 65536.0);
+#endif
+}

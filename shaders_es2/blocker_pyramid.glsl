@@ -23,9 +23,13 @@ HS_HIGHP vec2 hs_occupancy(HS_HIGHP vec2 texel, HS_HIGHP float widthTexels) {
   // A bilinear fetch of level l weighs a tent of 2^(l+1) level-0 texels: as wide as the region at
   // 2^l = width / 2.
   HS_HIGHP float level = clamp(log2(max(widthTexels / (2.0 * u_pyramidRange.z), 1.0)), 0.0, u_pyramidLayout.w);
-  HS_HIGHP float lower = floor(level);
   HS_HIGHP vec2 uv = texel * u_map.y;
+#ifdef HS_NEAREST_LEVEL
+  return hs_pyramidLevel(uv, floor(level + 0.5));
+#else
+  HS_HIGHP float lower = floor(level);
   return mix(hs_pyramidLevel(uv, lower), hs_pyramidLevel(uv, min(lower + 1.0, u_pyramidLayout.w)), level - lower);
+#endif
 }
 
 // Depth of the mean blocker in depth units.

@@ -7,6 +7,7 @@
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
+#include "kernel_spread.glsl"
 #include "blocker_pyramid.glsl"
 #include "block_mask.glsl"
 uniform HS_HIGHP vec4 u_penumbra;
@@ -16,13 +17,12 @@ uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
 // Width of the receiver's band in texels, or -1: lit.
 HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
   side = 1.0;
-  HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
-  if (hs_lightMisses || widest <= 0.0) return -1.0;
-  HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest);
-  if (coarse.x <= 0.5 / 255.0) return -1.0;
-  HS_HIGHP float width = u_penumbra.x * max(hs_receiverValue - hs_meanBlockerDepth(coarse), 0.0);
-  HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(width, 1.0) * 1.25);
-  if (fine.x > 0.5 / 255.0) width = u_penumbra.x * max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
+  // The nearest caster around bounds the width; the mean caster over that width gives it.
+  HS_HIGHP float width = u_penumbra.x * (hs_receiverValue - hs_nearestAround());
+  if (hs_lightMisses || width <= 0.0) return -1.0;
+  HS_HIGHP vec2 around = hs_occupancy(hs_texel, width);
+  if (around.x <= 0.5 / 255.0) return -1.0;
+  width = u_penumbra.x * max(hs_receiverValue - hs_meanBlockerDepth(around), 0.0);
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
   HS_HIGHP float third = floor(3.0 * (band + 0.5) / (u_bands.z + 1.0));
   side = third < 0.5 ? u_kernels.x : (third < 1.5 ? u_kernels.y : u_kernels.z);
@@ -44,22 +44,6 @@ float halfshadow_visibility() {
   HS_HIGHP float width = hs_bandWidth(side);
   if (width < 0.0) return 1.0;
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  HS_HIGHP vec2 area = max(vec2(width, width * u_bands.w), vec2(1.0));
-  HS_HIGHP vec2 stride = area / side;
-  HS_HIGHP vec2 first = 0.5 * (stride - area);
-  HS_HIGHP vec2 offset = first;
-  HS_HIGHP float count = side * side - 0.5;
-  float column = 0.0;
-  float lit = 0.0;
-  for (int i = 0; i < HS_LARGEST * HS_LARGEST; ++i) {
-    if (float(i) > count) break;
-    lit += hs_lit((hs_texel + offset) * u_map.y, hs_receiver, dot(hs_gradient, offset), bias);
-    column += 1.0;
-    float wrapped = step(side - 0.5, column);
-    column -= wrapped * side;
-    offset.x = first.x + column * stride.x;
-    offset.y += wrapped * stride.y;
-  }
-  return lit / (count + 0.5);
+  return hs_spreadSum(max(vec2(width, width * u_bands.w), vec2(1.0)), side, bias);
 }
 #include "receiver_main.glsl"

@@ -20,7 +20,7 @@ float halfshadow_visibility() {
   HS_HIGHP float count = side * side - 0.5;
   HS_HIGHP vec2 offset = vec2(0.0);
   float lit = 0.0;
-  for (int i = 0; i < HS_LARGEST * HS_LARGEST; ++i) {
+  for (int i = 0; i < HS_SPREAD_KERNEL * HS_SPREAD_KERNEL; ++i) {
     if (float(i) > count) break;
     lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
     offset.x += 1.0;

@@ -73,6 +73,7 @@ class PcfQuantized final : public Technique {
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
+    shading.defines.push_back("HS_NEAREST_LEVEL");
     if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
@@ -94,7 +95,7 @@ class PcfQuantized final : public Technique {
   }
 
   static void addKernels(ReceiverShading& shading, const std::array<int, 3>& sides) {
-    shading.defines.push_back("HS_LARGEST " + std::to_string(sides[2]));
+    shading.defines.push_back("HS_SPREAD_KERNEL " + std::to_string(sides[2]));
     const glm::vec4 kernels(sides[0], sides[1], sides[2], 0);
     shading.setUniforms = [kernels, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
       inner(program, context);
