@@ -70,7 +70,7 @@ Status checkOutputs(const Arguments& arguments) {
   if (Status status = checkJsonPath(arguments.json); !status) return status;
   if (arguments.dump.empty()) return {};
   const Status status = measure::prepareDumpFolder(arguments.dump);
-  return status ? Status{} : Status(Error{status.error().code, "--dump: " + status.error().message});
+  return status ? Status{} : Status(named("--dump", status.error()));
 }
 
 Result<std::vector<measure::TechniqueMeasurement>> measureAll(measure::EngineSession& session,
@@ -97,7 +97,9 @@ ExitStatus measureScene(const Arguments& arguments) {
   if (Status status = checkSize(arguments.size, **session); !status) return fail(status.error());
   const auto ids = chosenTechniques(**session, arguments.techniques);
   if (!ids) return fail(ids.error());
-  if (Status status = (*session)->set(settingsOf(arguments.settings)); !status) return fail(status.error());
+  if (Status status = (*session)->set(settingsOf(arguments.settings)); !status) {
+    return fail(named("--set", status.error()));
+  }
   const auto scene = openScene(arguments.scene);
   if (!scene) return fail(scene.error());
   if (Status status = checkOutputs(arguments); !status) return fail(status.error());

@@ -22,11 +22,10 @@ struct Arguments {
 };
 
 Status checkOutputs(const Arguments& arguments) {
-  if (Status s = measure::checkWritable(arguments.output); !s)
-    return Error{s.error().code, "-o: " + s.error().message};
+  if (Status s = measure::checkWritable(arguments.output); !s) return named("-o", s.error());
   if (!arguments.receivers.empty()) {
     if (Status s = measure::checkWritable(arguments.receivers); !s) {
-      return Error{s.error().code, "--receivers: " + s.error().message};
+      return named("--receivers", s.error());
     }
   }
   return checkJsonPath(arguments.json);
@@ -90,9 +89,12 @@ void addReferenceCommand(CLI::App& app, ExitStatus& status) {
   command
       ->add_option("-o,--output", arguments->output,
                    "visibility of the scene's first light, OpenEXR, channel V")
+      ->check(endsWith(".exr"))
       ->required();
-  command->add_option("--receivers", arguments->receivers,
-                      "write 1 on receiver pixels and 0 elsewhere, OpenEXR: weights for `compare`");
+  command
+      ->add_option("--receivers", arguments->receivers,
+                   "write 1 on receiver pixels and 0 elsewhere, OpenEXR: weights for `compare`")
+      ->check(endsWith(".exr"));
   command->add_option("--samples", arguments->samples, "light points per pixel")
       ->check(CLI::Range(1, 1 << 24))
       ->capture_default_str();

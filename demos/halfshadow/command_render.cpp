@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <map>
 
 #include "animation.hpp"
 #include "commands.hpp"
@@ -23,7 +21,7 @@ struct Arguments {
   std::string output, visibility, graphviz, json, technique;
   bool plan = false;
   int frames = 0;  ///< 0 = one image under its own name
-  Motion motion = Motion::light;
+  std::string animate = "light";
   double framesPerSecond = 30.0;
 };
 
@@ -33,11 +31,11 @@ Status checkArguments(const Arguments& arguments) {
     return Error{ErrorCode::invalidArgument,
                  "nothing to write; give -o out.png, --visibility v.exr, --plan or --graphviz plan.dot"};
   }
-  if (arguments.motion == Motion::time && arguments.scene.source.starts_with("builtin:")) {
+  if (arguments.animate == "time" && arguments.scene.source.starts_with("builtin:")) {
     return Error{ErrorCode::invalidArgument, "--animate time needs a file: " + arguments.scene.source +
                                                  " has no animation; use light or camera"};
   }
-  const std::pair<const char*, const std::string*> outputs[] = {{"--output", &arguments.output},
+  const std::pair<const char*, const std::string*> outputs[] = {{"-o", &arguments.output},
                                                                 {"--visibility", &arguments.visibility},
                                                                 {"--graphviz", &arguments.graphviz}};
   for (const auto& [option, path] : outputs) {
@@ -49,6 +47,11 @@ Status checkArguments(const Arguments& arguments) {
     }
   }
   return checkJsonPath(arguments.json);
+}
+
+Motion motionOf(const std::string& animate) {
+  if (animate == "camera") return Motion::camera;
+  return animate == "time" ? Motion::time : Motion::light;
 }
 
 /// `auto` where the engine has it, else `hard`.
@@ -163,7 +166,7 @@ class Renderer {
 Status renderFrames(measure::EngineSession& session, const Arguments& arguments,
                     const scene::SceneDescription& first, Renderer& renderer) {
   if (arguments.frames == 0) return renderer.renderFrame(first, arguments.output, arguments.visibility);
-  const Animation animation(arguments.scene, first, arguments.motion, arguments.frames,
+  const Animation animation(arguments.scene, first, motionOf(arguments.animate), arguments.frames,
                             arguments.framesPerSecond);
   const auto numbered = [](const std::string& path, int frame) {
     return path.empty() ? path : framePath(path, frame);
@@ -189,7 +192,8 @@ ExitStatus render(const Arguments& arguments) {
   if (Status status = checkSize(arguments.size, **session); !status) return fail(status.error());
   const std::string technique =
       arguments.technique.empty() ? defaultTechnique(**session) : arguments.technique;
-  if (Status s = (*session)->choose(technique, settingsOf(arguments.settings)); !s) return fail(s.error());
+  if (Status s = (*session)->choose(technique, {}); !s) return fail(named("-t", s.error()));
+  if (Status s = (*session)->set(settingsOf(arguments.settings)); !s) return fail(named("--set", s.error()));
   auto scene = openScene(arguments.scene);
   if (!scene) return fail(scene.error());
   if (Status status = (*session)->load(*scene); !status) return fail(status.error());
@@ -211,10 +215,13 @@ void addRenderCommand(CLI::App& app, ExitStatus& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("render", "shaded image of a scene, or its visibility");
   addSceneArguments(*command, arguments->scene);
-  command->add_option("-o,--output", arguments->output, "the shaded image, PNG, sRGB");
-  command->add_option(
-      "--visibility", arguments->visibility,
-      "visibility, OpenEXR: channel V is the first light (1 lit, 0 umbra), V1 to V3 are further ones");
+  command->add_option("-o,--output", arguments->output, "the shaded image, PNG, sRGB")
+      ->check(endsWith(".png"));
+  command
+      ->add_option(
+          "--visibility", arguments->visibility,
+          "visibility, OpenEXR: channel V is the first light (1 lit, 0 umbra), V1 to V3 are further ones")
+      ->check(endsWith(".exr"));
   command->add_option("-t,--technique", arguments->technique,
                       "shadow technique, see `halfshadow techniques` (default: auto, else hard)");
   addSettingArguments(*command, arguments->settings);
@@ -225,11 +232,11 @@ void addRenderCommand(CLI::App& app, ExitStatus& status) {
           "number of animated images; they are written as out_0000.png, … (default: one still image)")
       ->check(CLI::Range(1, 9999));
   command
-      ->add_option("--animate", arguments->motion,
+      ->add_option("--animate", arguments->animate,
                    "what moves: light (once round a small circle), camera (once round its target), time (the "
-                   "file's animation); needs --frames (default: light)")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Motion>{
-          {"light", Motion::light}, {"camera", Motion::camera}, {"time", Motion::time}}))
+                   "file's animation); needs --frames")
+      ->check(CLI::IsMember({"light", "camera", "time"}))
+      ->capture_default_str()
       ->needs("--frames");
   command->add_option("--fps", arguments->framesPerSecond, "images per second of --animate time")
       ->check(finiteProblem)

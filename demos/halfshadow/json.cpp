@@ -3,6 +3,7 @@
 #include "json.hpp"
 
 #include <cstdio>
+#include <filesystem>
 
 #include "measure/text_file.hpp"
 
@@ -18,7 +19,11 @@ bool printsText(const std::string& jsonPath) {
 }
 
 Status checkJsonPath(const std::string& jsonPath) {
-  return jsonPath.empty() || jsonPath == "-" ? Status{} : named(measure::checkWritable(jsonPath));
+  std::error_code failure;
+  const auto kind = std::filesystem::status(jsonPath, failure).type();
+  const bool stream = jsonPath == "-" || kind == std::filesystem::file_type::character ||
+                      kind == std::filesystem::file_type::fifo;
+  return jsonPath.empty() || stream ? Status{} : named(measure::checkWritable(jsonPath));
 }
 
 Status writeJson(const std::string& jsonPath, const Json& json) {

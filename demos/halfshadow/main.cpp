@@ -9,6 +9,18 @@
 
 namespace halfshadow::cli {
 namespace {
+std::string usageProblem(const CLI::App& app, const CLI::ParseError& error, int argc, char** argv) {
+  const auto chosen = app.get_subcommands();
+  if (!chosen.empty())
+    return std::string(error.what()) + "; see `halfshadow " + chosen.front()->get_name() + " --help`";
+  std::string commands;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    commands += (commands.empty() ? "" : ", ") + command->get_name();
+  }
+  if (argc < 2) return "a command is missing; give one of " + commands;
+  return "\"" + std::string(argv[1]) + "\" is not a command; give one of " + commands;
+}
+
 int run(int argc, char** argv) {
   CLI::App app("Soft shadows on OpenGL ES 2.0: render, trace the truth, measure.", "halfshadow");
   app.require_subcommand(1);
@@ -28,9 +40,7 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) return app.exit(error);  // --help
-    const auto chosen = app.get_subcommands();
-    say(std::string(error.what()) + "; see `halfshadow " +
-        (chosen.empty() ? "" : chosen.front()->get_name() + " ") + "--help`");
+    say(usageProblem(app, error, argc, argv));
     return kBadUsage;
   }
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0) {

@@ -29,9 +29,12 @@ std::string sizeProblem(const std::string& text, SizeArguments& size) {
          std::to_string(kLargestSide) + ", e.g. 640x480";
 }
 
+/// CLI11 puts the option's name in front of what a check says; the scene parsers do so themselves.
 template <typename T>
-std::string problemOf(const Result<T>& result) {
-  return result.ok() ? std::string() : result.error().message;
+std::string problemOf(const Result<T>& result, const std::string& option) {
+  if (result.ok()) return {};
+  const std::string& message = result.error().message;
+  return message.starts_with(option + ": ") ? message.substr(option.size() + 2) : message;
 }
 
 std::string assignmentProblem(const std::string& text, const char* example) {
@@ -55,6 +58,16 @@ std::string finiteProblem(const std::string& text) {
   return "\"" + text + "\" is not a finite number; give one, e.g. 1.5";
 }
 
+CLI::Validator endsWith(const std::string& extension) {
+  return CLI::Validator(
+      [extension](std::string& path) {
+        return path.size() > extension.size() && path.ends_with(extension)
+                   ? std::string()
+                   : "\"" + path + "\" does not end with " + extension + "; this option writes such a file";
+      },
+      "FILE" + extension);
+}
+
 void addSceneArguments(CLI::App& app, SceneArguments& arguments) {
   app.add_option("SCENE", arguments.source,
                  "a .gltf or .glb file, or builtin:NAME[@light=HALFSIZE] (see `halfshadow scenes`)")
@@ -63,12 +76,12 @@ void addSceneArguments(CLI::App& app, SceneArguments& arguments) {
          "--camera", arguments.camera,
          "\"eye=x,y,z target=x,y,z [fov=DEGREES] [up=x,y,z]\" in world units; fov is vertical, default 34 "
          "(default: the scene's camera, else one fitted to casters and shadow)")
-      ->check([](const std::string& text) { return problemOf(scenes::parseCamera(text)); });
+      ->check([](const std::string& text) { return problemOf(scenes::parseCamera(text), "--camera"); });
   app.add_option("--light", arguments.light,
                  "\"center=x,y,z target=x,y,z size=WxH [up=x,y,z]\" (full side lengths in world units) or "
                  "\"center=x,y,z u=x,y,z v=x,y,z\" (half-extent vectors, emits towards u x v) "
                  "(default: the scene's light, else one fitted above the casters)")
-      ->check([](const std::string& text) { return problemOf(scenes::parseLight(text)); });
+      ->check([](const std::string& text) { return problemOf(scenes::parseLight(text), "--light"); });
   app.add_option("--ground", arguments.ground,
                  "auto adds a ground plane to scenes without a floor, on to all, off removes it")
       ->check(CLI::IsMember({"auto", "on", "off"}))
@@ -151,7 +164,15 @@ Result<scene::SceneDescription> openScene(const SceneArguments& arguments) {
 Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments) {
   measure::SessionOptions options{.driver = arguments.driver, .eglLibrary = arguments.eglLibrary};
   for (const std::string& text : arguments.force) options.forcedOff.push_back(text.substr(0, text.find('=')));
-  return measure::EngineSession::open(options);
+  auto session = measure::EngineSession::open(options);
+  if (!session && session.error().code == ErrorCode::invalidArgument && !options.forcedOff.empty()) {
+    return named("--force", session.error());
+  }
+  return session;
+}
+
+Error named(const std::string& option, const Error& error) {
+  return {error.code, option + ": " + error.message};
 }
 
 Status checkSize(const SizeArguments& size, const measure::EngineSession& session) {

@@ -42,6 +42,9 @@ struct SettingArguments {
 /// A check for real options: what is wrong with the text, or empty.
 std::string finiteProblem(const std::string& text);
 
+/// A check for output options: the file's name ends with `extension` (".png").
+CLI::Validator endsWith(const std::string& extension);
+
 /// SCENE, --camera, --light, --ground, --animation-time, --animation.
 void addSceneArguments(CLI::App& app, SceneArguments& arguments);
 /// --size.
@@ -59,6 +62,8 @@ std::vector<measure::Setting> settingsOf(const SettingArguments& arguments);
 /// Opens the scene and says its notes on standard error. Its first light is the one that is measured.
 Result<scene::SceneDescription> openScene(const SceneArguments& arguments);
 Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments);
+/// The error with the option in front that caused it.
+Error named(const std::string& option, const Error& error);
 /// invalidArgument when a side is above the device's limit.
 Status checkSize(const SizeArguments& size, const measure::EngineSession& session);
 

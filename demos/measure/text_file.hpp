@@ -11,7 +11,8 @@
 
 namespace halfshadow::measure {
 
-/// Writes beside the target and renames into place. Errors: fileNotWritable.
+/// Writes beside the target and renames into place; devices and pipes (/dev/stdout) are written directly.
+/// Errors: fileNotWritable.
 Status writeTextFile(const std::filesystem::path& path, const std::string& text);
 
 /// Proves, before expensive work, that `path` can be written later: its folder exists and takes new files,
