@@ -124,7 +124,8 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                                           .receivers = frame.receivers,
                                           .shadowlessReceivers = target.shadowlessReceivers,
                                           .contentKey = plan.contentKey,
-                                          .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision)};
+                                          .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision),
+                                          .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();

@@ -88,8 +88,11 @@ struct LightFrame {
   std::uint64_t sceneKey = 0;         ///< the same with the receivers
   std::string mapName;                ///< appended to the names of maps, for techniques with several a light
   framegraph::Lifetime mapLifetime = framegraph::Lifetime::persistent;
-  FilterSkip preferredSkip = FilterSkip::stencil;  ///< the device profile's choice
+  FilterSkip preferredSkip = FilterSkip::stencil;  ///< setting filter_skip: the device profile's choice
 };
+
+/// Of the setting value "branch", "loop" or "stencil".
+FilterSkip filterSkipFromName(std::string_view name);
 
 /// A sampler of the receiver program and what it reads: a resource of the graph, or a texture of the
 /// technique's own.

@@ -62,12 +62,6 @@ class Pcf final : public Technique {
   }
 };
 
-FilterSkip skipFromSetting(const std::string& value) {
-  if (value == "branch") return FilterSkip::branch;
-  if (value == "loop") return FilterSkip::loop;
-  return FilterSkip::stencil;
-}
-
 class PcfMasked final : public Technique {
  public:
   const TechniqueInfo& info() const override {
@@ -105,7 +99,7 @@ class PcfMasked final : public Technique {
       addEdgeMask(shading, *mask);
     }
     const std::string& skip = settings.choice("pcf-masked.skip");
-    shading.skip = skip == "auto" ? frame.preferredSkip : skipFromSetting(skip);
+    shading.skip = skip == "auto" ? frame.preferredSkip : filterSkipFromName(skip);
     if (shading.skip == FilterSkip::loop && settings.choice("pcf-masked.pattern") == "poisson") {
       shading.skip = FilterSkip::branch;  // the disc's taps are unrolled: there is no loop to bound
     }

@@ -26,7 +26,9 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
   std::vector<SettingInfo> settings = {
       {"map_size", SettingType::integer, "1024", 16, 8192, {}, "side of depth maps in texels"},
       {"bias", SettingType::real, "1.0", 0, 16, {},
-       "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"}};
+       "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"},
+      {"filter_skip", SettingType::choice, "stencil", 0, 0, {"branch", "loop", "stencil"},
+       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }

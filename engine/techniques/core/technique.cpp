@@ -11,4 +11,9 @@ gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld) {
   return item.mirrored ? gl::Cull::front : gl::Cull::back;
 }
 
+FilterSkip filterSkipFromName(std::string_view name) {
+  if (name == "branch") return FilterSkip::branch;
+  return name == "loop" ? FilterSkip::loop : FilterSkip::stencil;
+}
+
 }  // namespace halfshadow::techniques
