@@ -8,4 +8,7 @@ float halfshadow_visibility() {
   hs_prepare();
   return hs_lightMisses ? 1.0 : hs_hardTap();
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

@@ -15,4 +15,7 @@ float halfshadow_visibility() {
   hs_prepare();
   return hs_lightMisses ? 1.0 : hs_pcf();
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

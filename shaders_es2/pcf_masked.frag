@@ -37,4 +37,7 @@ float halfshadow_visibility() {
 #endif
 #endif
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

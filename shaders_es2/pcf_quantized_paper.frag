@@ -29,4 +29,7 @@ float halfshadow_visibility() {
   }
   return lit / (count + 0.5);
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

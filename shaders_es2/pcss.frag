@@ -49,4 +49,7 @@ float halfshadow_visibility() {
   HS_HIGHP vec2 kernel = max(u_penumbra.xy * (-gapSum / blockers), vec2(1.0));
   return hs_pcfSpread(kernel);
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

@@ -33,4 +33,7 @@ float halfshadow_visibility() {
   HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);
   return variance / (variance + beyond * beyond);
 }
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
 #include "receiver_main.glsl"

@@ -44,9 +44,11 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0};
 }
 
-techniques::ReceiverOutput receiverOutput(Output output) {
-  switch (output) {
-    case Output::shaded: return techniques::ReceiverOutput::shaded;
+/// What the pass that evaluates visibility writes: with several lights, shading reads it from the screen.
+techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t lightCount) {
+  switch (desc.output) {
+    case Output::shaded:
+      return lightCount > 1 ? techniques::ReceiverOutput::visibility : techniques::ReceiverOutput::shaded;
     case Output::visibility: return techniques::ReceiverOutput::visibility;
     case Output::visibility16: return techniques::ReceiverOutput::visibility16;
     case Output::taps: return techniques::ReceiverOutput::taps;
@@ -61,12 +63,23 @@ void appendPoints(const EngineObject& object, std::vector<glm::dvec3>& points) {
   }
 }
 
+framegraph::ClearValue clearColor(float r, float g, float b, float a) { return {.color = {r, g, b, a}}; }
+
 framegraph::ClearValue clearValueOf(const RenderDesc& desc) {
-  framegraph::ClearValue clear;
-  for (int i = 0; i < 4; ++i) {
-    clear.color[i] = desc.output == Output::shaded ? desc.clearColor[i] : (desc.output == Output::taps ? 0.0f : 1.0f);
-  }
-  return clear;
+  if (desc.output == Output::taps) return clearColor(0, 0, 0, 0);
+  if (desc.output != Output::shaded) return clearColor(1, 1, 1, 1);
+  return clearColor(desc.clearColor[0], desc.clearColor[1], desc.clearColor[2], desc.clearColor[3]);
+}
+
+/// A colour image of the frame's size with a depth buffer of its own.
+std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, const std::string& name, const TargetDesc& target,
+                                                   framegraph::Lifetime lifetime, const framegraph::ClearValue& clear) {
+  const auto color = graph.addResource({.name = name, .width = target.width, .height = target.height, .lifetime = lifetime});
+  const auto depth = graph.addResource({.name = name + " depth", .width = target.width, .height = target.height,
+                                        .format = framegraph::Format::depth24,
+                                        .storage = framegraph::Storage::renderbuffer});
+  return {{.resource = color, .point = framegraph::AttachmentPoint::color, .clear = clear},
+          {.resource = depth, .point = framegraph::AttachmentPoint::depth, .clear = clear}};
 }
 }  // namespace
 
@@ -75,7 +88,6 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                                    const RenderDesc& desc) {
   const scene::AreaLight& light = lights[index];
   FrameLight& target = frame.lights[index];
-  target.shadingInputs = {.light = &light, .eyeWorld = toVector(desc.camera.eye)};
   LightCache& cache = lightCaches[index];
   const int mapSize = settings->integer("map_size");
   scene::Bounds casterBounds;
@@ -83,7 +95,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
     target.casters.push_back(drawItem(*sceneObjects[i]));
     casterBounds.include(scene::transformed(sceneObjects[i]->worldFromObject, sceneObjects[i]->boundsObject));
   }
-  target.shadingInputs.referenceDistance =
+  target.referenceDistance =
       casterBounds.empty() ? std::max(glm::length(light.centerWorld - toVector(desc.camera.target)), 1e-6)
                            : std::max(glm::length(light.centerWorld - casterBounds.center()), 1e-6);
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
@@ -129,38 +141,24 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
-  auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc.output), frame.receivers);
+  auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc, lights.size()), frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
 }
 
-void Engine::State::declareReceiverPass(Frame& frame, const RenderDesc& desc) {
-  using framegraph::AttachmentPoint;
-  framegraph::PassDesc pass{.name = desc.output == Output::shaded ? "receivers, shaded" : "receivers, visibility",
-                            .stage = framegraph::PassStage::scene};
-  const framegraph::ClearValue clear = clearValueOf(desc);
-  const TargetDesc& target = desc.target;
-  if (target.kind == TargetDesc::Kind::host) {
-    frame.color = frame.graph.importTarget("host target", {target.framebuffer, target.x, target.y, target.width, target.height});
-    pass.writes = {{.resource = frame.color, .point = AttachmentPoint::color, .clear = clear},
-                   {.resource = frame.color, .point = AttachmentPoint::depth, .clear = clear}};
-  } else {
-    frame.color = frame.graph.addResource({.name = "output", .width = target.width, .height = target.height,
-                                           .lifetime = framegraph::Lifetime::persistent});
-    const auto depth = frame.graph.addResource({.name = "output depth", .width = target.width, .height = target.height,
-                                                .format = framegraph::Format::depth24,
-                                                .storage = framegraph::Storage::renderbuffer});
-    pass.writes = {{.resource = frame.color, .point = AttachmentPoint::color, .clear = clear},
-                   {.resource = depth, .point = AttachmentPoint::depth, .clear = clear}};
-  }
-  frame.graph.markOutput(frame.color);
-  // A single-image output shows the first light only.
-  const std::size_t drawn = desc.output == Output::visibility ? frame.lights.size() : std::min<std::size_t>(frame.lights.size(), 1);
+void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc, std::vector<framegraph::Attachment> targets) {
+  const auto output = receiverOutput(desc, frame.lights.size());
+  const bool shaded = output == techniques::ReceiverOutput::shaded;
+  framegraph::PassDesc pass{.name = shaded ? "receivers, shaded" : "receivers, visibility",
+                            .stage = framegraph::PassStage::scene,
+                            .writes = std::move(targets)};
+  // An image of one value a pixel shows the first light only.
+  const std::size_t drawn = output == techniques::ReceiverOutput::visibility ? frame.lights.size() : 1;
   for (std::size_t i = 0; i < drawn; ++i) {
     for (const auto resource : techniques::resourcesRead(frame.lights[i].shading)) pass.reads.push_back(resource);
   }
-  pass.execute = [&frame, drawn, shaded = desc.output == Output::shaded](framegraph::PassContext& passContext) {
+  pass.execute = [&frame, drawn, shaded](framegraph::PassContext& passContext) {
     for (std::size_t i = 0; i < drawn; ++i) {
       const FrameLight& light = frame.lights[i];
       techniques::ReceiverTarget receiverTarget{.depthIsComplete = i > 0};
@@ -168,10 +166,49 @@ void Engine::State::declareReceiverPass(Frame& frame, const RenderDesc& desc) {
         receiverTarget.colorMask.fill(false);
         receiverTarget.colorMask[i] = true;
       }
-      techniques::drawReceivers(passContext, light.shading, light.programs, frame.view, frame.receivers, shaded ? &light.shadingInputs : nullptr, receiverTarget);
+      techniques::drawReceivers(passContext, light.shading, light.programs, frame.view, frame.receivers,
+                                shaded ? &frame.shadingInputs : nullptr, receiverTarget);
     }
   };
   frame.graph.addPass(std::move(pass));
+}
+
+Status Engine::State::declareReceiverPasses(Frame& frame, const RenderDesc& desc) {
+  using framegraph::AttachmentPoint;
+  const framegraph::ClearValue clear = clearValueOf(desc);
+  const TargetDesc& target = desc.target;
+  std::vector<framegraph::Attachment> targets;
+  if (target.kind == TargetDesc::Kind::host) {
+    const auto host = frame.graph.importTarget("host target", {target.framebuffer, target.x, target.y, target.width, target.height});
+    targets = {{.resource = host, .point = AttachmentPoint::color, .clear = clear},
+               {.resource = host, .point = AttachmentPoint::depth, .clear = clear}};
+  } else {
+    targets = imageWithDepth(frame.graph, "output", target, framegraph::Lifetime::persistent, clear);
+  }
+  frame.color = targets.front().resource;
+  frame.graph.markOutput(frame.color);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    frame.shadingInputs.lights.push_back({&lights[i], frame.lights[i].referenceDistance});
+  }
+  if (desc.output != Output::shaded || lights.size() == 1) {
+    declareVisibilityPass(frame, desc, std::move(targets));
+    return {};
+  }
+  auto visibilityTargets = imageWithDepth(frame.graph, "visibilities", target, framegraph::Lifetime::transient,
+                                          clearColor(1, 1, 1, 1));
+  frame.screenShading = techniques::shadeFromScreen(visibilityTargets.front().resource);
+  auto linked = techniques::receiverPrograms(*programs, frame.screenShading, techniques::ReceiverOutput::shaded, frame.receivers);
+  if (!linked) return linked.error();
+  frame.screenPrograms = *linked;
+  declareVisibilityPass(frame, desc, std::move(visibilityTargets));
+  framegraph::PassDesc pass{.name = "receivers, shaded", .stage = framegraph::PassStage::resolve,
+                            .reads = techniques::resourcesRead(frame.screenShading), .writes = std::move(targets)};
+  pass.execute = [&frame](framegraph::PassContext& passContext) {
+    techniques::drawReceivers(passContext, frame.screenShading, frame.screenPrograms, frame.view, frame.receivers,
+                              &frame.shadingInputs, {});
+  };
+  frame.graph.addPass(std::move(pass));
+  return {};
 }
 
 Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameReport) {
@@ -215,7 +252,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s) return s;
   }
-  declareReceiverPass(*frame, desc);
+  if (Status s = declareReceiverPasses(*frame, desc); !s) return s;
   auto plan = framegraph::compile(frame->graph, [this](const framegraph::ResourceDesc& resource) {
     return executor->contentKeyOf(resource);
   });

@@ -54,7 +54,7 @@ struct FrameLight {
   std::vector<techniques::DrawItem> casters;
   std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
-  techniques::ShadingInputs shadingInputs;
+  double referenceDistance = 1.0;
   techniques::ReceiverProgramSet programs;
 };
 
@@ -65,6 +65,9 @@ struct Frame {
   std::vector<FrameLight> lights;
   framegraph::Graph graph;
   framegraph::ResourceId color;
+  techniques::ShadingInputs shadingInputs;       ///< Output::shaded
+  techniques::ReceiverShading screenShading;     ///< Output::shaded with several lights
+  techniques::ReceiverProgramSet screenPrograms;
 };
 
 struct Engine::State {
@@ -94,7 +97,8 @@ struct Engine::State {
   gl::HostStatePolicy policy() const;
   Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
                       const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision, const RenderDesc& desc);
-  void declareReceiverPass(Frame& frame, const RenderDesc& desc);
+  void declareVisibilityPass(Frame& frame, const RenderDesc& desc, std::vector<framegraph::Attachment> targets);
+  Status declareReceiverPasses(Frame& frame, const RenderDesc& desc);
   Status renderFrame(const RenderDesc& desc, FrameReport& report);
   void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned, const gl::Counters& counters,
                   FrameReport& report);

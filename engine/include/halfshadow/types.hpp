@@ -87,7 +87,7 @@ struct CameraDesc {
 };
 
 enum class Output {
-  shaded,        ///< lit colours, forward, one light (the first)
+  shaded,        ///< lit colours of all lights; one light is evaluated forward, in the same pass
   visibility,    ///< light i in channel i, 8 bits; a single light in all four channels; 1 where no receiver is
   visibility16,  ///< first light, red high byte, green low byte; value = (256·red + green) / 65280
   taps           ///< first light, texture fetches of the visibility function; red low byte, green high byte

@@ -54,22 +54,43 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   }
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
-  relative[3] -= glm::dvec4(inputs->light->centerWorld, 0.0);
+  relative[3] -= glm::dvec4(inputs->lights.front().light->centerWorld, 0.0);
   program.set(gl, "u_shadeFromObject", glm::mat4(relative));
   program.set(gl, "u_worldNormalFromObject", glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
   program.set(gl, "u_baseColor", item.baseColor);
 }
 
-void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const ShadingInputs* inputs) {
+void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
+                      const gl::Rect& viewport, const ShadingInputs* inputs) {
   if (shading.setUniforms) shading.setUniforms(program, gl);
+  const glm::vec2 scale(1.0f / static_cast<float>(viewport.width), 1.0f / static_cast<float>(viewport.height));
+  program.set(gl, "u_viewport", glm::vec4(scale, -scale * glm::vec2(viewport.x, viewport.y)));
   if (inputs == nullptr) return;
-  const scene::AreaLight& light = *inputs->light;
-  program.set(gl, "u_light", glm::vec4(light.color * static_cast<float>(light.intensity), 1.0f));
-  program.set(gl, "u_emission", glm::vec4(glm::vec3(light.emission), static_cast<float>(inputs->referenceDistance)));
-  program.set(gl, "u_eye", glm::vec4(glm::vec3(inputs->eyeWorld - light.centerWorld), 0.0f));
+  const glm::dvec3 origin = inputs->lights.front().light->centerWorld;
+  glm::vec4 position[4] = {}, emission[4] = {}, color[4] = {};
+  for (std::size_t i = 0; i < 4; ++i) {
+    position[i].w = 1.0f;
+    if (i >= inputs->lights.size()) continue;
+    const scene::AreaLight& light = *inputs->lights[i].light;
+    position[i] = glm::vec4(glm::vec3(light.centerWorld - origin), static_cast<float>(inputs->lights[i].referenceDistance));
+    emission[i] = glm::vec4(glm::vec3(light.emission), 0.0f);
+    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
+  }
+  program.setArray(gl, "u_lightPosition", position, 4);
+  program.setArray(gl, "u_lightEmission", emission, 4);
+  program.setArray(gl, "u_lightColor", color, 4);
+  program.set(gl, "u_eye", glm::vec4(glm::vec3(view.eyeWorld - origin), 0.0f));
 }
 
 }  // namespace
+
+ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
+  ReceiverShading shading;
+  shading.fragmentFile = "shade_lights.frag";
+  shading.forward = false;
+  shading.textures = {{.sampler = "u_visibility", .resource = visibility}};
+  return shading;
+}
 
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading) {
   std::vector<framegraph::ResourceId> resources;
@@ -139,7 +160,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
     if (program != current) {
       current = program;
       encoder.useProgram(*program);
-      setFrameUniforms(encoder.context(), *program, shading, inputs);
+      setFrameUniforms(encoder.context(), *program, shading, view, context.viewport, inputs);
       bindTextures(context, *program, shading);
     }
     if (item.baseColorTexture && inputs) {

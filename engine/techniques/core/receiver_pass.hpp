@@ -17,10 +17,15 @@ enum class ReceiverOutput {
 };
 
 struct ShadingInputs {
-  const scene::AreaLight* light = nullptr;
-  glm::dvec3 eyeWorld{0.0};
-  double referenceDistance = 1.0;  ///< at which the light's intensity counts 1
+  struct Light {
+    const scene::AreaLight* light = nullptr;
+    double referenceDistance = 1.0;  ///< at which the light's intensity counts 1
+  };
+  std::vector<Light> lights;  ///< one when visibility is evaluated in the same pass, else up to four
 };
+
+/// Lit colours from the visibilities of all lights that an earlier pass left in `visibility`.
+ReceiverShading shadeFromScreen(framegraph::ResourceId visibility);
 
 /// Programs of one light, ready to draw; made while declaring so that a shader error is a frame's error.
 struct ReceiverPrograms {

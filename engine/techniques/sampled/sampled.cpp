@@ -49,9 +49,9 @@ class Sampled final : public Technique {
     shading.fragmentFile = "screen_counts.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_counts", .resource = counts}};
-    const glm::vec4 screen(1.0 / width, 1.0 / height, 255.0 / samples, 0);
-    shading.setUniforms = [screen](gl::Program& program, gl::Context& context) {
-      program.set(context, "u_screen", screen);
+    const glm::vec4 scale(255.0 / samples, 0, 0, 0);
+    shading.setUniforms = [scale](gl::Program& program, gl::Context& context) {
+      program.set(context, "u_samples", scale);
     };
     return shading;
   }
