@@ -19,7 +19,7 @@ if [[ ! -f $build/build.ninja ]]; then
   if [[ -f /usr/include/gtest/gtest.h ]]; then tests=ON; fi
   cmake --preset default -S "$root" -B "$build" -DHALFSHADOW_BUILD_TESTS=$tests
 fi
-cmake --build "$build" --parallel "$(nproc)" --target halfshadow
+cmake --build "$build" --parallel "$(nproc)" --target halfshadow_cli
 
 scenes=()
 model=$root/../shared/scenes/CesiumMan.glb

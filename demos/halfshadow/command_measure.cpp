@@ -21,24 +21,6 @@ struct Arguments {
   std::string dump, json;
 };
 
-/// The asked-for techniques, each once. Errors: unknownTechnique.
-Result<std::vector<std::string>> chosenTechniques(measure::EngineSession& session,
-                                                  const std::vector<std::string>& asked) {
-  const std::vector<std::string> known = measure::techniqueIds(session);
-  std::vector<std::string> chosen;
-  for (const std::string& id : asked) {
-    if (id != "all" && std::ranges::find(known, id) == known.end()) {
-      std::string list;
-      for (const std::string& name : known) list += ", " + name;
-      return Error{ErrorCode::unknownTechnique, "-t: there is no technique \"" + id + "\"; give all" + list};
-    }
-    for (const std::string& name : id == "all" ? known : std::vector<std::string>{id}) {
-      if (std::ranges::find(chosen, name) == chosen.end()) chosen.push_back(name);
-    }
-  }
-  return chosen;
-}
-
 void printHeading(const scene::SceneDescription& scene, const DriverRecord& driver,
                   const measure::Truth& truth) {
   std::printf("%s, %dx%d, %s\n", scene.name.c_str(), truth.width, truth.height, driver.renderer);

@@ -16,6 +16,7 @@ void addScenesCommand(CLI::App& app, ExitStatus& status);
 void addRenderCommand(CLI::App& app, ExitStatus& status);
 void addReferenceCommand(CLI::App& app, ExitStatus& status);
 void addMeasureCommand(CLI::App& app, ExitStatus& status);
+void addReportCommand(CLI::App& app, ExitStatus& status);
 void addCompareCommand(CLI::App& app, ExitStatus& status);
 void addValidateCommand(CLI::App& app, ExitStatus& status);
 

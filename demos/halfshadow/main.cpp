@@ -34,6 +34,7 @@ int run(int argc, char** argv) {
   addRenderCommand(app, status);
   addReferenceCommand(app, status);
   addMeasureCommand(app, status);
+  addReportCommand(app, status);
   addCompareCommand(app, status);
   addValidateCommand(app, status);
   try {

@@ -2,9 +2,11 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "options.hpp"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
+#include "measure/measurement.hpp"
 #include "output.hpp"
 #include "scenes/camera_light_options.hpp"
 
@@ -180,6 +182,23 @@ Status checkSize(const SizeArguments& size, const measure::EngineSession& sessio
   if (size.width <= limit && size.height <= limit) return {};
   return Error{ErrorCode::invalidArgument, "--size " + size.text + " is above this device's limit of " +
                                                std::to_string(limit) + " pixels a side; give a smaller one"};
+}
+
+Result<std::vector<std::string>> chosenTechniques(measure::EngineSession& session,
+                                                  const std::vector<std::string>& asked) {
+  const std::vector<std::string> known = measure::techniqueIds(session);
+  std::vector<std::string> chosen;
+  for (const std::string& id : asked) {
+    if (id != "all" && std::ranges::find(known, id) == known.end()) {
+      std::string list;
+      for (const std::string& name : known) list += ", " + name;
+      return Error{ErrorCode::unknownTechnique, "-t: there is no technique \"" + id + "\"; give all" + list};
+    }
+    for (const std::string& name : id == "all" ? known : std::vector<std::string>{id}) {
+      if (std::ranges::find(chosen, name) == chosen.end()) chosen.push_back(name);
+    }
+  }
+  return chosen;
 }
 
 }  // namespace halfshadow::cli

@@ -66,5 +66,8 @@ Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArgument
 Error named(const std::string& option, const Error& error);
 /// invalidArgument when a side is above the device's limit.
 Status checkSize(const SizeArguments& size, const measure::EngineSession& session);
+/// The asked-for techniques ("all": every one), each once. Errors: unknownTechnique.
+Result<std::vector<std::string>> chosenTechniques(measure::EngineSession& session,
+                                                  const std::vector<std::string>& asked);
 
 }  // namespace halfshadow::cli

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include "commands.hpp"
+#include "images/images.hpp"
+#include "measure/measurement.hpp"
+#include "measure/text_file.hpp"
+#include "options.hpp"
+#include "report/report.hpp"
+#include "report/scene_pictures.hpp"
+
+namespace halfshadow::cli {
+namespace {
+struct Arguments {
+  std::vector<std::string> scenes;
+  std::vector<std::string> techniques{"all"};
+  SizeArguments size{.text = "480x300", .width = 480, .height = 300};
+  DriverArguments driver;
+  SettingArguments settings;
+  std::string folder;
+  int samples = 1024, frames = 5;
+};
+
+/// "builtin:figure@light=1" → "figure_light_1", a path → its stem.
+std::string fileStem(const std::string& source) {
+  std::string stem = source.starts_with("builtin:") ? source.substr(std::string("builtin:").size())
+                                                    : std::filesystem::path(source).stem().string();
+  std::ranges::replace_if(
+      stem, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '-'; }, '_');
+  return stem;
+}
+
+/// Errors: fileNotWritable (--output), those of reading scenes and rendering.
+Result<report::SceneReport> reportScene(measure::EngineSession& session, const std::string& source,
+                                        const std::vector<std::string>& ids, const Arguments& arguments) {
+  const auto scene = openScene({.source = source});
+  if (!scene) return scene.error();
+  ProgressLine progress;
+  auto truth = measure::traceTruth(
+      *scene, arguments.size.width, arguments.size.height, arguments.samples,
+      [&](const std::string& stage, double share) { progress.update(source + ": " + stage, share); });
+  if (!truth) return truth.error();
+  report::SceneReport result{
+      .title = source, .description = report::describeScene(*scene), .truth = std::move(*truth)};
+  const std::vector<measure::Setting> settings = settingsOf(arguments.settings);
+  for (const std::string& id : ids) {
+    progress.update(source + ": " + id,
+                    static_cast<double>(result.techniques.size()) / static_cast<double>(ids.size()));
+    auto measured = measure::measureTechnique(session, *scene, result.truth, {id, settings},
+                                              {.timingFrames = arguments.frames});
+    if (!measured) return measured.error();
+    const bool supported = measured->supported;
+    result.techniques.push_back(std::move(*measured));
+    if (!supported) continue;
+    auto shaded =
+        report::renderShaded(session, *scene, {id, settings}, arguments.size.width, arguments.size.height);
+    if (!shaded) return shaded.error();
+    const auto path = std::filesystem::path(arguments.folder) / (fileStem(source) + "-" + id + ".png");
+    if (Status status = images::writePng(path, shaded->width, shaded->height, 4, shaded->pixels); !status) {
+      return status.error();
+    }
+    // The page shows the scene once, under its best shadows.
+    const auto better = [](const measure::TechniqueMeasurement& a, const measure::TechniqueMeasurement& b) {
+      return a.supported && (!b.supported || a.error.penumbra.rmse < b.error.penumbra.rmse);
+    };
+    if (std::ranges::min_element(result.techniques, better)->id == id) {
+      result.shaded = std::move(*shaded);
+      result.shadedWith = id;
+    }
+  }
+  return result;
+}
+
+void printScene(const report::SceneReport& scene) {
+  std::printf("%s\n", scene.title.c_str());
+  for (const measure::TechniqueMeasurement& t : scene.techniques) {
+    if (t.supported) {
+      std::printf("  %-14s penumbra RMSE %.4f  receiver MAE %.4f  %8.2f ms\n", t.id.c_str(),
+                  t.error.penumbra.rmse, t.error.receiver.mae, t.time.medianMs);
+    } else {
+      std::printf("  %-14s not supported here: %s\n", t.id.c_str(), t.unsupportedReason.c_str());
+    }
+  }
+  std::fflush(stdout);
+}
+
+ExitStatus makeReport(const Arguments& arguments) {
+  auto session = openSession(arguments.driver);
+  if (!session) return fail(session.error());
+  if (Status status = checkSize(arguments.size, **session); !status) return fail(status.error());
+  const auto ids = chosenTechniques(**session, arguments.techniques);
+  if (!ids) return fail(ids.error());
+  if (Status status = (*session)->set(settingsOf(arguments.settings)); !status) {
+    return fail(named("--set", status.error()));
+  }
+  std::error_code failure;
+  std::filesystem::create_directories(arguments.folder, failure);
+  const std::filesystem::path page = std::filesystem::path(arguments.folder) / "report.html";
+  if (Status status = measure::checkWritable(page); !status) return fail(named("--output", status.error()));
+
+  report::Report document{
+      .title = "Halfshadow: soft shadows against ray-traced truth",
+      .introduction =
+          "Each technique's visibility (1 lit, 0 umbra) is compared with ray-traced visibility of the "
+          "same rectangular light, pixel by pixel. Times are medians of " +
+          std::to_string(arguments.frames) + " frames of " + arguments.size.text +
+          " pixels on this device; on a software driver they rank the work, not a phone's GPU.",
+      .device = report::deviceOf((*session)->engine().driver())};
+  for (const std::string& source : arguments.scenes) {
+    auto scene = reportScene(**session, source, *ids, arguments);
+    if (!scene) return fail(scene.error());
+    printScene(*scene);
+    document.scenes.push_back(std::move(*scene));
+  }
+  if (Status status = report::writeReport(page, document); !status) return fail(status.error());
+  std::printf("wrote %s\n", page.c_str());
+  return kDone;
+}
+}  // namespace
+
+void addReportCommand(CLI::App& app, ExitStatus& status) {
+  const auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      app.add_subcommand("report", "measures several scenes into one HTML page with pictures");
+  command->add_option("SCENE", arguments->scenes, ".gltf or .glb files, or builtin:NAME")->required();
+  command->add_option("-o,--output", arguments->folder, "folder for report.html and the shaded images")
+      ->required();
+  command
+      ->add_option("-t,--technique", arguments->techniques,
+                   "techniques, separated by commas, or all (default: all)")
+      ->delimiter(',')
+      ->allow_extra_args(false);
+  addSettingArguments(*command, arguments->settings);
+  addSizeArgument(*command, arguments->size);
+  command->add_option("--samples", arguments->samples, "light points per pixel of the truth")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  command->add_option("--frames", arguments->frames, "frames timed per technique; 0 times nothing")
+      ->check(CLI::Range(0, 100000))
+      ->capture_default_str();
+  addDriverArguments(*command, arguments->driver);
+  command->callback([arguments, &status] { status = makeReport(*arguments); });
+}
+
+}  // namespace halfshadow::cli
