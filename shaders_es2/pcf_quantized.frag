@@ -10,6 +10,9 @@
 #include "kernel_spread.glsl"
 #include "blocker_pyramid.glsl"
 #include "block_mask.glsl"
+#ifdef HS_CASTING_RECEIVER
+#include "blocker_search.glsl"
+#endif
 uniform HS_HIGHP vec4 u_penumbra;
 uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band, w: aspect
 uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
@@ -20,9 +23,16 @@ HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
   // The nearest caster around bounds the width; the mean caster over that width gives it.
   HS_HIGHP float width = u_penumbra.x * (hs_receiverValue - hs_nearestAround());
   if (hs_lightMisses || width <= 0.0) return -1.0;
+#ifdef HS_CASTING_RECEIVER
+  // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
+  HS_HIGHP vec2 found = hs_searchBlockers(vec2(width, width * u_bands.w));
+  if (found.x <= 0.0) return -1.0;
+  width = u_penumbra.x * found.y;
+#else
   HS_HIGHP vec2 around = hs_occupancy(hs_texel, width);
   if (around.x <= 0.5 / 255.0) return -1.0;
   width = u_penumbra.x * max(hs_receiverValue - hs_meanBlockerDepth(around), 0.0);
+#endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
   HS_HIGHP float third = floor(3.0 * (band + 0.5) / (u_bands.z + 1.0));
   side = third < 0.5 ? u_kernels.x : (third < 1.5 ? u_kernels.y : u_kernels.z);

@@ -9,10 +9,20 @@
 #include "kernel_spread.glsl"
 #include "blocker_pyramid.glsl"
 #include "block_mask.glsl"
+#ifdef HS_CASTING_RECEIVER
+#include "blocker_search.glsl"
+#endif
 uniform HS_HIGHP vec4 u_penumbra;
 
 // Width of the penumbra in texels, or -1: lit.
 HS_HIGHP float hs_penumbraWidth() {
+#ifdef HS_CASTING_RECEIVER
+  // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
+  HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - hs_nearestAround());
+  if (hs_lightMisses || widest <= 0.0) return -1.0;
+  HS_HIGHP vec2 found = hs_searchBlockers(vec2(widest, widest * u_penumbra.y / u_penumbra.x));
+  return found.x > 0.0 ? u_penumbra.x * found.y : -1.0;
+#else
   HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
   if (hs_lightMisses || widest <= 0.0) return -1.0;
   HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest);
@@ -21,6 +31,7 @@ HS_HIGHP float hs_penumbraWidth() {
   HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(u_penumbra.x * gap, 1.0) * 1.25);
   if (fine.x > 0.5 / 255.0) gap = max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
   return u_penumbra.x * gap;
+#endif
 }
 
 float halfshadow_class() {

@@ -29,10 +29,12 @@ void bindTextures(framegraph::PassContext& context, gl::Program& program, const 
   context.encoder.bindTextures(bindings);
 }
 
-/// What an item offers that the output can use. The facet stream has no smooth normals and no texture
-/// coordinates, so shading takes it only where there are no derivatives to replace it.
-bool takesFacets(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
-  return shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives);
+/// The facet stream has no smooth normals and no texture coordinates, so shading takes it only where there are no
+/// derivatives to replace it.
+ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
+  return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
+          .textured = shaded && item.baseColorTexture != nullptr,
+          .casting = shading.knowsSelfReceivers && item.casts};
 }
 
 void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
@@ -102,11 +104,12 @@ std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading
 
 namespace {
 Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading, ReceiverOutput output,
-                                      bool facets, bool textured) {
+                                      const ReceiverKind& kind) {
   ReceiverPrograms result;
   std::vector<std::string> defines = shading.defines;
-  if (facets) defines.push_back("HS_FACET_NORMAL");
-  for (std::string& define : outputDefines(output, textured)) defines.push_back(std::move(define));
+  if (kind.facets) defines.push_back("HS_FACET_NORMAL");
+  if (kind.casting) defines.push_back("HS_CASTING_RECEIVER");
+  for (std::string& define : outputDefines(output, kind.textured)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
     variant.insert(variant.end(), extra.begin(), extra.end());
@@ -129,13 +132,13 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
                                             ReceiverOutput output, std::span<const DrawItem> items) {
   ReceiverProgramSet set;
-  const bool shaded = output == ReceiverOutput::shaded;
+  set.twoDraws = shading.skip == FilterSkip::stencil && output != ReceiverOutput::taps;
+  const bool derivatives = programs.capabilities().has(gl::Capability::derivatives);
   for (const DrawItem& item : items) {
-    const bool facets = takesFacets(shading, item, shaded, programs.capabilities().has(gl::Capability::derivatives));
-    const bool textured = shaded && item.baseColorTexture != nullptr;
-    ReceiverPrograms& slot = set.byItem[facets][textured];
+    const ReceiverKind kind = kindOf(shading, item, output == ReceiverOutput::shaded, derivatives);
+    ReceiverPrograms& slot = set.of(kind);
     if (slot.whole || slot.filter) continue;
-    auto linked = linkPrograms(programs, shading, output, facets, textured);
+    auto linked = linkPrograms(programs, shading, output, kind);
     if (!linked) return linked.error();
     slot = *linked;
   }
@@ -155,24 +158,24 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   }
   gl::Program* current = nullptr;
   const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
-    const bool facets = takesFacets(shading, item, inputs != nullptr, derivatives);
-    gl::Program* program = programs.of(facets, inputs && item.baseColorTexture).*phase;
+    const ReceiverKind kind = kindOf(shading, item, inputs != nullptr, derivatives);
+    gl::Program* program = programs.of(kind).*phase;
     if (program != current) {
       current = program;
       encoder.useProgram(*program);
       setFrameUniforms(encoder.context(), *program, shading, view, context.viewport, inputs);
       bindTextures(context, *program, shading);
     }
-    if (item.baseColorTexture && inputs) {
+    if (kind.textured) {
       const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
       encoder.bindTextures({&binding, 1});
     }
-    setObjectUniforms(encoder.context(), *program, shading, view, item, facets, inputs);
+    setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs);
     state.cull = hiddenFaces(item, view.eyeWorld);
     item.mesh->draw(encoder, state,
-                    facets ? GpuMesh::Streams::facet : inputs ? GpuMesh::Streams::shading : GpuMesh::Streams::positions);
+                    kind.facets ? GpuMesh::Streams::facet : inputs ? GpuMesh::Streams::shading : GpuMesh::Streams::positions);
   };
-  if (shading.skip != FilterSkip::stencil || programs.of(false, false).whole || programs.of(true, false).whole) {
+  if (!programs.twoDraws) {
     for (const DrawItem& item : items) draw(item, &ReceiverPrograms::whole);
     return;
   }

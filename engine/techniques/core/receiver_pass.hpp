@@ -33,10 +33,17 @@ struct ReceiverPrograms {
   gl::Program* classify = nullptr;  ///< FilterSkip::stencil: draws what needs no filter, discards the rest
   gl::Program* filter = nullptr;    ///< FilterSkip::stencil: the rest
 };
-/// The same by what an item offers: its facet stream, its base colour texture.
+/// What of an item selects its programs.
+struct ReceiverKind {
+  bool facets = false;    ///< its facet stream is drawn
+  bool textured = false;  ///< its base colour texture is read
+  bool casting = false;   ///< it is in the map itself, and the technique minds
+};
 struct ReceiverProgramSet {
-  ReceiverPrograms byItem[2][2];
-  const ReceiverPrograms& of(bool facet, bool textured) const { return byItem[facet][textured]; }
+  ReceiverPrograms byKind[2][2][2];
+  bool twoDraws = false;
+  ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.facets][kind.textured][kind.casting]; }
+  const ReceiverPrograms& of(const ReceiverKind& kind) const { return byKind[kind.facets][kind.textured][kind.casting]; }
 };
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,

@@ -75,6 +75,9 @@ class PcfQuantized final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
     shading.defines.push_back("HS_NEAREST_LEVEL");
     if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
+    // Casting receivers search by 4 x 4 taps: enough to tell near blockers from far ones.
+    shading.knowsSelfReceivers = true;
+    shading.defines.push_back("HS_SEARCH 4");
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
