@@ -24,7 +24,8 @@ float halfshadow_visibility() {
   float known = hs_maskClass();
   if (known > -0.5) return known;
 #endif
-  HS_HIGHP vec2 width = u_penumbra.xy * (hs_receiverValue - u_penumbra.z);
+  // The nearest caster around bounds the region to search.
+  HS_HIGHP vec2 width = u_penumbra.xy * (hs_receiverValue - hs_nearestAround());
   if (hs_lightMisses || width.x <= 0.0) return 1.0;
   HS_HIGHP vec2 found = hs_searchBlockers(width);
   if (found.x <= 0.0) return 1.0;

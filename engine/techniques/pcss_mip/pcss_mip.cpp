@@ -18,7 +18,7 @@ class PcssMip final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override {
-    return {{"pcss-mip.size", SettingType::integer, "6", 2, 17, {}, "taps per side of the filter"}};
+    return {{"pcss-mip.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
