@@ -4,6 +4,7 @@
 
 #include "api/engine_state.hpp"
 #include "gl/embedded_shaders.hpp"
+#include "techniques/registry/shader_table.hpp"
 
 namespace halfshadow {
 namespace {
@@ -56,7 +57,8 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
   state.context = std::move(context).value();
   state.hostState = desc.hostState;
   state.programs = std::make_unique<gl::ProgramCache>(
-      *state.context, desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder) : gl::ShaderSourceProvider(gl::embeddedShader));
+      *state.context, desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder) : gl::ShaderSourceProvider(gl::embeddedShader),
+      techniques::shaderTable());
   state.encoder = std::make_unique<gl::Encoder>(*state.context);
   state.executor = std::make_unique<framegraph::Executor>(*state.context);
   state.techniques = techniques::makeAllTechniques();

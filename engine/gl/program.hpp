@@ -114,9 +114,17 @@ Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::st
 /// Names of `uniform … sampler2D` declarations in order of appearance, each once; comments are skipped.
 std::vector<std::string> samplerNamesOf(std::string_view source);
 
+/// One row of the table of allowed variants: a pair of files and the names of the defines that may be set with it.
+struct AllowedVariants {
+  std::string_view vertexFile, fragmentFile;
+  std::vector<std::string_view> defines;
+};
+
 class ProgramCache {
  public:
-  ProgramCache(Context& context, ShaderSourceProvider provider);
+  /// `allowed`: variants outside it are refused (internal), so that what the tests compile is all there is;
+  /// empty = everything is allowed.
+  ProgramCache(Context& context, ShaderSourceProvider provider, std::vector<AllowedVariants> allowed = {});
   /// Linked on first use, kept until clear(). The pointer stays valid until then. Errors: shaderFailed with
   /// the driver's log and the variant.
   Result<Program*> get(const ProgramVariant& variant);
@@ -126,7 +134,9 @@ class ProgramCache {
 
  private:
   Context& context_;
+  Status checkAllowed(const ProgramVariant& variant) const;
   ShaderSourceProvider provider_;
+  std::vector<AllowedVariants> allowed_;
   std::map<ProgramVariant, std::unique_ptr<Program>> programs_;
 };
 

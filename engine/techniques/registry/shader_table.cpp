@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/registry/shader_table.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+using Defines = std::vector<std::string_view>;
+
+/// What selects the way that depth is stored.
+const Defines kDepth = {"HS_DEPTH_PACKED24", "HS_DEPTH_PACKED16"};
+/// What every program over receivers may have: its output, its facet plane, its draw of two.
+const Defines kReceiver = {"HS_VISIBILITY_16", "HS_COUNT_TAPS", "HS_SHADED", "HS_BASE_COLOR_TEXTURE"};
+const Defines kMapReceiver = {"HS_FACET_NORMAL", "HS_LIT_OUTSIDE"};
+const Defines kTwoDraws = {"HS_PHASE_CLASSIFY", "HS_PHASE_FILTER"};
+const Defines kKernel = {"HS_KERNEL", "HS_POISSON_COUNT", "HS_POISSON_TAPS", "HS_ROTATE"};
+
+Defines joined(std::initializer_list<Defines> lists) {
+  Defines all;
+  for (const Defines& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+gl::AllowedVariants receiver(std::string_view fragmentFile, std::initializer_list<Defines> lists) {
+  return {"receiver.vert", fragmentFile, joined({kReceiver, joined(lists)})};
+}
+}  // namespace
+
+std::vector<gl::AllowedVariants> shaderTable() {
+  return {
+      {"light_depth.vert", "light_depth.frag", kDepth},
+      {"fullscreen.vert", "block_bounds.frag", joined({kDepth, {"HS_FACTOR", "HS_FROM_DEPTH"}})},
+      {"fullscreen.vert", "block_dilate.frag", {"HS_REACH"}},
+      {"fullscreen.vert", "occupancy.frag", kDepth},
+      {"fullscreen.vert", "pyramid_copy.frag", {}},
+      {"fullscreen.vert", "edge_mask.frag", joined({kDepth, {"HS_LAPLACIAN9"}})},
+      {"fullscreen.vert", "edge_dilate.frag", {}},
+      {"fullscreen.vert", "vsm_moments.frag", joined({kDepth, {"HS_MOMENTS_8"}})},
+      {"fullscreen.vert", "vsm_blur.frag", {"HS_MOMENTS_8", "HS_KERNEL"}},
+      receiver("none.frag", {}),
+      receiver("hard.frag", {kDepth, kMapReceiver, {"HS_COUNT_SHADOWED"}}),
+      receiver("pcf.frag", {kDepth, kMapReceiver, kKernel}),
+      receiver("pcf_masked.frag", {kDepth, kMapReceiver, kKernel, kTwoDraws, {"HS_MASK_EDGES", "HS_SKIP_LOOP"}}),
+      receiver("pcf_quantized.frag", {kDepth, kMapReceiver, kTwoDraws,
+                                      {"HS_NEAREST_LEVEL", "HS_SPREAD_KERNEL", "HS_SEARCH", "HS_CASTING_RECEIVER"}}),
+      receiver("pcf_quantized_paper.frag", {kDepth, kMapReceiver, {"HS_SPREAD_KERNEL"}}),
+      receiver("pcss.frag", {kDepth, kMapReceiver, kTwoDraws, {"HS_SEARCH", "HS_SPREAD_KERNEL"}}),
+      receiver("pcss_mip.frag", {kDepth, kMapReceiver, kTwoDraws,
+                                 {"HS_SPREAD_KERNEL", "HS_SEARCH", "HS_CASTING_RECEIVER"}}),
+      receiver("vsm.frag", {kDepth, kMapReceiver, {"HS_MOMENTS_8"}}),
+      receiver("screen_counts.frag", {}),
+      receiver("shade_lights.frag", {}),
+  };
+}
+
+}  // namespace halfshadow::techniques
