@@ -4,6 +4,12 @@
 // HS_POISSON_TAPS(TAP) expands to TAP(x, y) for each point of the unit disc.
 uniform HS_HIGHP vec4 u_poisson;  // x: radius in texels
 
+float hs_discTap(HS_HIGHP vec2 axis, HS_HIGHP vec2 point, HS_HIGHP float bias) {
+  HS_HIGHP vec2 turned = vec2(axis.x * point.x - axis.y * point.y, axis.y * point.x + axis.x * point.y);
+  HS_HIGHP vec2 center = floor(hs_texel + turned) + 0.5;
+  return hs_lit(center * u_map.y, hs_receiver, dot(hs_gradient, center - hs_texel), bias);
+}
+
 float hs_pcfPoisson() {
   HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 axis = vec2(u_poisson.x, 0.0);
@@ -13,11 +19,8 @@ float hs_pcfPoisson() {
   axis = u_poisson.x * vec2(cos(turn), sin(turn));
 #endif
   float lit = 0.0;
-#define HS_TAP(px, py)                                                                                 \
-  {                                                                                                    \
-    HS_HIGHP vec2 center = floor(hs_texel + vec2(axis.x * (px) - axis.y * (py), axis.y * (px) + axis.x * (py))) + 0.5; \
-    lit += hs_lit(center * u_map.y, hs_receiver, dot(hs_gradient, center - hs_texel), bias);                    \
-  }
+// One line: GLSL ES 1.00 has no line continuation.
+#define HS_TAP(px, py) lit += hs_discTap(axis, vec2(px, py), bias);
   HS_POISSON_TAPS(HS_TAP)
   return lit * (1.0 / float(HS_POISSON_COUNT));
 }

@@ -44,7 +44,9 @@ Result<report::SceneReport> reportScene(measure::EngineSession& session, const s
       [&](const std::string& stage, double share) { progress.update(source + ": " + stage, share); });
   if (!truth) return truth.error();
   report::SceneReport result{
-      .title = source, .description = report::describeScene(*scene), .truth = std::move(*truth)};
+      .title = source.starts_with("builtin:") ? source : std::filesystem::path(source).filename().string(),
+      .description = report::describeScene(*scene),
+      .truth = std::move(*truth)};
   const std::vector<measure::Setting> settings = settingsOf(arguments.settings);
   for (const std::string& id : ids) {
     progress.update(source + ": " + id,

@@ -44,7 +44,7 @@ dl.facts dd { margin: 0; overflow-wrap: anywhere; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; margin-top: 16px; }
 .grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(360px, 1fr)); gap: 16px; margin-top: 16px; }
 figure { margin: 0; }
-figure img { display: block; width: 100%; height: auto; border-radius: 6px; image-rendering: auto; }
+figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 6px; }
 .technique h4 { margin: 0; font-size: 15px; }
 .technique .settings { color: var(--soft); font-size: 12.5px; min-height: 19px; overflow-wrap: anywhere; }
@@ -67,6 +67,7 @@ details { margin-top: 10px; }
 summary { cursor: pointer; color: var(--accent); padding: 4px 0; }
 svg { display: block; width: 100%; height: auto; }
 svg text { fill: var(--ink); font: 12.5px system-ui, sans-serif; }
+svg .label { paint-order: stroke; stroke: var(--card); stroke-width: 4px; stroke-linejoin: round; }
 svg .axis { fill: var(--soft); }
 svg .minor { stroke: var(--line); stroke-width: 0.5; }
 svg .major { stroke: var(--line); stroke-width: 1; }

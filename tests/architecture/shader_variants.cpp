@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "shader_variants.hpp"
+
+#include <span>
+
+#include "techniques/kernels/poisson_disc.hpp"
+
+namespace halfshadow::architecture {
+namespace {
+
+using Depth = ShaderFamily::Depth;
+using Kind = ShaderFamily::Kind;
+
+/// Kernels of pcf and pcf-masked: smallest, odd, largest; the disc, turned and not.
+std::vector<Defines> kernels(const Defines& with) {
+  std::vector<Defines> sets;
+  for (const char* size : {"2", "7", "17"}) sets.push_back({std::string("HS_KERNEL ") + size});
+  const Defines disc = {"HS_POISSON_COUNT 16", techniques::poissonTapsDefine(16)};
+  sets.push_back(disc);
+  sets.push_back(disc);
+  sets.back().push_back("HS_ROTATE");
+  for (Defines& set : sets) set.insert(set.end(), with.begin(), with.end());
+  return sets;
+}
+
+std::vector<Defines> joined(std::initializer_list<std::vector<Defines>> lists) {
+  std::vector<Defines> all;
+  for (const auto& list : lists) all.insert(all.end(), list.begin(), list.end());
+  return all;
+}
+
+std::vector<Defines> searches(const std::string& macro) {
+  std::vector<Defines> sets;
+  for (const char* size : {"2", "9"}) {
+    sets.push_back({"HS_SPREAD_KERNEL " + std::string(size)});
+    if (!macro.empty()) sets.back().push_back(macro + " " + size);
+  }
+  return sets;
+}
+
+}  // namespace
+
+const std::vector<ShaderFamily>& shaderFamilies() {
+  static const std::vector<ShaderFamily> families = {
+      {"light_depth.vert", "light_depth.frag", Depth::perStorage},
+      {"fullscreen.vert",
+       "block_bounds.frag",
+       Depth::perStorage,
+       Kind::pass,
+       {{"HS_FACTOR 2"},
+        {"HS_FACTOR 4"},
+        {"HS_FACTOR 2", "HS_FROM_DEPTH"},
+        {"HS_FACTOR 4", "HS_FROM_DEPTH"}}},
+      {"fullscreen.vert",
+       "block_dilate.frag",
+       Depth::independent,
+       Kind::pass,
+       {{"HS_REACH 1"}, {"HS_REACH 4"}}},
+      {"fullscreen.vert", "edge_mask.frag", Depth::perStorage, Kind::pass, {{}, {"HS_LAPLACIAN9"}}},
+      {"fullscreen.vert", "edge_dilate.frag"},
+      {"fullscreen.vert", "occupancy.frag", Depth::perStorage},
+      {"fullscreen.vert", "pyramid_copy.frag"},
+      {"fullscreen.vert", "vsm_moments.frag", Depth::perStorage, Kind::pass, {{}, {"HS_MOMENTS_8"}}},
+      {"fullscreen.vert",
+       "vsm_blur.frag",
+       Depth::independent,
+       Kind::pass,
+       {{"HS_KERNEL 3"}, {"HS_KERNEL 9"}, {"HS_KERNEL 3", "HS_MOMENTS_8"}}},
+      {"receiver.vert", "none.frag", Depth::independent, Kind::receiver},
+      {"receiver.vert",
+       "hard.frag",
+       Depth::perStorage,
+       Kind::receiver,
+       {{}, {"HS_COUNT_SHADOWED"}, {"HS_LIT_OUTSIDE"}}},
+      {"receiver.vert", "screen_counts.frag", Depth::independent, Kind::receiver},
+      {"receiver.vert",
+       "shade_lights.frag",
+       Depth::independent,
+       Kind::pass,
+       {{"HS_SHADED"}, {"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}},
+      {"receiver.vert", "pcf.frag", Depth::perStorage, Kind::receiver, kernels({})},
+      {"receiver.vert", "pcf_masked.frag", Depth::perStorage, Kind::receiver,
+       joined({kernels({}), kernels({"HS_MASK_EDGES"}), {{"HS_KERNEL 4", "HS_SKIP_LOOP"}}}), true},
+      {"receiver.vert",
+       "pcf_quantized.frag",
+       Depth::perStorage,
+       Kind::receiver,
+       {{"HS_NEAREST_LEVEL", "HS_SPREAD_KERNEL 5"},
+        {"HS_NEAREST_LEVEL", "HS_SPREAD_KERNEL 7"},
+        {"HS_NEAREST_LEVEL", "HS_SPREAD_KERNEL 7", "HS_SEARCH 4", "HS_CASTING_RECEIVER"}},
+       true},
+      {"receiver.vert",
+       "pcf_quantized_paper.frag",
+       Depth::perStorage,
+       Kind::receiver,
+       {{"HS_SPREAD_KERNEL 5"}, {"HS_SPREAD_KERNEL 7"}}},
+      {"receiver.vert", "pcss.frag", Depth::perStorage, Kind::receiver, searches("HS_SEARCH"), true},
+      {"receiver.vert", "pcss_mip.frag", Depth::perStorage, Kind::receiver,
+       joined({searches(""), {{"HS_SPREAD_KERNEL 6", "HS_SEARCH 4", "HS_CASTING_RECEIVER"}}}), true},
+      {"receiver.vert", "vsm.frag", Depth::perStorage, Kind::receiver, {{}, {"HS_MOMENTS_8"}}},
+  };
+  return families;
+}
+
+std::vector<ShaderVariant> shaderVariants() {
+  struct Rung {
+    Defines defines;
+    bool highp;
+  };
+  const std::vector<Rung> kDepthRungs = {
+      {{}, true}, {{"HS_DEPTH_PACKED24"}, true}, {{"HS_DEPTH_PACKED16"}, false}};
+  const std::vector<Rung> kPlainRungs = {{{}, true}, {{}, false}};
+  const std::vector<Defines> kOutputs = {
+      {}, {"HS_VISIBILITY_16"}, {"HS_COUNT_TAPS"}, {"HS_SHADED"}, {"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}};
+
+  std::vector<ShaderVariant> variants;
+  const auto add = [&](const ShaderFamily& family, const Rung& rung, std::initializer_list<Defines> parts,
+                       bool derivatives) {
+    ShaderVariant variant{family.vertexFile, family.fragmentFile, rung.defines, rung.highp, derivatives};
+    for (const Defines& part : parts) variant.defines.insert(variant.defines.end(), part.begin(), part.end());
+    variants.push_back(std::move(variant));
+  };
+  for (const ShaderFamily& family : shaderFamilies()) {
+    for (const Rung& rung : family.depth == Depth::perStorage ? kDepthRungs : kPlainRungs) {
+      for (const Defines& set : family.defineSets) {
+        if (family.kind == Kind::pass) {
+          add(family, rung, {set}, true);
+          continue;
+        }
+        // Without highp, or without derivatives, the facet's plane comes as a vertex attribute.
+        const std::vector<bool> kFacets =
+            rung.highp ? std::vector<bool>{false, true} : std::vector<bool>{true};
+        for (const bool facet : kFacets) {
+          const Defines plane = facet ? Defines{"HS_FACET_NORMAL"} : Defines{};
+          // The output does not change the kernel: all outputs with the first define set, one with the
+          // others.
+          const std::size_t outputs = &set == &family.defineSets.front() ? kOutputs.size() : 1;
+          for (const Defines& output : std::span(kOutputs).first(outputs)) {
+            add(family, rung, {set, plane, output}, !facet);
+            if (!family.twoDraws || output == Defines{"HS_COUNT_TAPS"}) continue;
+            for (const char* phase : {"HS_PHASE_CLASSIFY", "HS_PHASE_FILTER"}) {
+              add(family, rung, {set, plane, output, {phase}}, !facet);
+            }
+          }
+        }
+      }
+    }
+  }
+  return variants;
+}
+
+}  // namespace halfshadow::architecture
