@@ -3,7 +3,6 @@
 #include "json.hpp"
 
 #include <cstdio>
-#include <filesystem>
 
 #include "measure/text_file.hpp"
 
@@ -19,10 +18,7 @@ bool printsText(const std::string& jsonPath) {
 }
 
 Status checkJsonPath(const std::string& jsonPath) {
-  std::error_code failure;
-  const auto kind = std::filesystem::status(jsonPath, failure).type();
-  const bool stream = jsonPath == "-" || kind == std::filesystem::file_type::character ||
-                      kind == std::filesystem::file_type::fifo;
+  const bool stream = jsonPath == "-" || measure::isSpecial(jsonPath);
   return jsonPath.empty() || stream ? Status{} : named(measure::checkWritable(jsonPath));
 }
 

@@ -20,20 +20,21 @@ fs::path temporaryBeside(const fs::path& path) {
   return path.parent_path() / ("." + path.filename().string() + "." + std::to_string(getpid()) + ".tmp");
 }
 
-/// Pipes and devices such as /dev/stdout: renaming would replace the device itself.
-bool isSpecial(const fs::path& path) {
-  std::error_code failure;
-  const fs::file_status status = fs::status(path, failure);
-  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
-}
-
 Status writeThrough(const fs::path& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
+  std::ofstream file(path, std::ios::binary | std::ios::app);  // not truncated: it may hold other output
   file << text;
   file.close();
   return file ? Status{} : Status(notWritable(path, std::strerror(errno)));
 }
 }  // namespace
+
+bool isSpecial(const fs::path& path) {
+  const std::string name = path.lexically_normal().string();
+  if (name.starts_with("/dev/") || name.starts_with("/proc/")) return true;
+  std::error_code failure;
+  const fs::file_status status = fs::status(path, failure);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
 
 Status writeTextFile(const fs::path& path, const std::string& text) {
   if (isSpecial(path)) return writeThrough(path, text);
@@ -57,7 +58,8 @@ Status writeTextFile(const fs::path& path, const std::string& text) {
 }
 
 Status checkWritable(const fs::path& path) {
-  if (isSpecial(path)) return notWritable(path, "it is a device or pipe; give the name of a file");
+  if (isSpecial(path) && fs::exists(path))
+    return notWritable(path, "it is a device or pipe; give the name of a file");
   const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
   std::error_code failure;
   if (!fs::is_directory(folder, failure)) {

@@ -11,6 +11,9 @@
 
 namespace halfshadow::measure {
 
+/// Pipes and devices, and names such as /dev/stdout that may lead to a file: renaming would replace the name.
+bool isSpecial(const std::filesystem::path& path);
+
 /// Writes beside the target and renames into place; devices and pipes (/dev/stdout) are written directly.
 /// Errors: fileNotWritable.
 Status writeTextFile(const std::filesystem::path& path, const std::string& text);
