@@ -8,7 +8,9 @@ float halfshadow_visibility() {
   hs_prepare();
   return hs_lightMisses ? 1.0 : hs_hardTap();
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

@@ -2,7 +2,9 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "tap_count.glsl"
 float halfshadow_visibility() { return 1.0; }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

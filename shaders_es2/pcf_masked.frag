@@ -37,7 +37,9 @@ float halfshadow_visibility() {
 #endif
 #endif
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

@@ -56,7 +56,9 @@ float halfshadow_visibility() {
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   return hs_spreadSum(max(vec2(width, width * u_bands.w), vec2(1.0)), side, bias);
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

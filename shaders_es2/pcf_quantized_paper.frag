@@ -29,7 +29,9 @@ float halfshadow_visibility() {
   }
   return lit / (count + 0.5);
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

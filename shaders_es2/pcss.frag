@@ -32,7 +32,9 @@ float halfshadow_visibility() {
   if (found.x >= 1.0) return 0.0;
   return hs_pcfSpread(max(u_penumbra.xy * found.y, vec2(1.0)));
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

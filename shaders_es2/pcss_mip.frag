@@ -49,7 +49,9 @@ float halfshadow_visibility() {
   if (width < 0.0) return 1.0;
   return hs_pcfSpread(max(vec2(width, width * u_penumbra.y / u_penumbra.x), vec2(1.0)));
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

@@ -33,7 +33,9 @@ float halfshadow_visibility() {
   HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);
   return variance / (variance + beyond * beyond);
 }
+#ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif
 #include "receiver_main.glsl"
+#endif

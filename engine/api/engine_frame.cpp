@@ -49,7 +49,8 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
   switch (desc.output) {
     case Output::shaded:
       return lightCount > 1 ? techniques::ReceiverOutput::visibility : techniques::ReceiverOutput::shaded;
-    case Output::visibility: return techniques::ReceiverOutput::visibility;
+    case Output::visibility:
+    case Output::lightsOnly: return techniques::ReceiverOutput::visibility;
     case Output::visibility16: return techniques::ReceiverOutput::visibility16;
     case Output::taps: return techniques::ReceiverOutput::taps;
   }
@@ -141,6 +142,10 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
+  if (desc.output == Output::lightsOnly) {
+    for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
+    return {};
+  }
   auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc, lights.size()), frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
@@ -252,7 +257,9 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s) return s;
   }
-  if (Status s = declareReceiverPasses(*frame, desc); !s) return s;
+  if (desc.output != Output::lightsOnly) {
+    if (Status s = declareReceiverPasses(*frame, desc); !s) return s;
+  }
   auto plan = framegraph::compile(frame->graph, [this](const framegraph::ResourceDesc& resource) {
     return executor->contentKeyOf(resource);
   });

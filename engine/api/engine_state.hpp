@@ -93,7 +93,10 @@ struct Engine::State {
   std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
   int outputWidth = 0, outputHeight = 0;
 
+  techniques::ForwardTexts forwardTexts;
+
   Outcome fail(const Error& error);
+  Status checkForward(std::size_t light) const;
   gl::HostStatePolicy policy() const;
   Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
                       const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision, const RenderDesc& desc);

@@ -83,6 +83,8 @@ class Texture {
   void update(Context& context, int x, int y, int width, int height, const void* pixels);
   void generateMipmaps(Context& context);
   void setFilter(Context& context, TextureFilter filter);
+  /// Leaves the texture bound to a unit, which becomes the active one: for a host's own draws.
+  void bind(Context& context, int unit) const;
   std::uint32_t name() const { return wrapped_ ? wrapped_ : object_.name(); }
   const TextureDesc& desc() const { return desc_; }
   std::size_t byteCount() const;

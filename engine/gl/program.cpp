@@ -154,6 +154,7 @@ void Program::reflect(Context& context, const std::vector<std::string>& samplerN
   std::stable_sort(samplers.begin(), samplers.end(),
                    [](const ActiveSampler& a, const ActiveSampler& b) { return a.rank < b.rank; });
 
+  if (wrapped_ != 0) return;  // the host decides
   // A link happens at any time, also between useProgram and draw: the current program stays what it was.
   GLint current = 0;
   gl.getIntegerv(GL_CURRENT_PROGRAM, &current);
@@ -169,6 +170,21 @@ void Program::reflect(Context& context, const std::vector<std::string>& samplerN
     gl.uniform1iv(uniform.location, uniform.arraySize, units.data());
   }
   gl.useProgram(static_cast<GLuint>(current));
+}
+
+Program Program::wrap(Context& context, std::uint32_t name) {
+  Program program;
+  program.wrapped_ = name;
+  program.label_ = "the host's program " + std::to_string(name);
+  program.reflect(context, {});
+  return program;
+}
+
+void Program::setSampler(Context& context, UniformKey key, int unit) {
+  Uniform* uniform = findUniform(key.hash);
+  if (!uniform || context.lost()) return;
+  uniform->samplerUnit = unit;
+  context.functions().uniform1i(uniform->location, unit);
 }
 
 const Program::Uniform* Program::find(UniformKey key) const {

@@ -51,8 +51,12 @@ class Program {
   static Result<Program> link(Context& context, std::string_view vertexSource,
                               std::string_view fragmentSource, const std::vector<std::string>& samplerNames,
                               std::string_view label);
-  std::uint32_t name() const { return object_.name(); }
+  /// A linked program of the host's, never deleted here; its samplers keep their units until setSampler().
+  static Program wrap(Context& context, std::uint32_t name);
+  std::uint32_t name() const { return wrapped_ ? wrapped_ : object_.name(); }
   const std::string& label() const { return label_; }
+  /// Makes a sampler read from a unit; the program must be current.
+  void setSampler(Context& context, UniformKey key, int unit);
   bool has(UniformKey key) const { return find(key) != nullptr; }
   /// Unit of a sampler, −1 when the program has none of that name. Use it as TextureBinding::unit.
   int samplerUnit(UniformKey key) const;
@@ -83,6 +87,7 @@ class Program {
   /// The uniform when it exists and its last value differs (then updated), else null.
   Uniform* changed(Context& context, UniformKey key, const float* values, std::size_t count);
   Object<ObjectKind::program> object_;
+  std::uint32_t wrapped_ = 0;
   std::vector<Uniform> uniforms_;
   std::string label_;
 };
@@ -128,6 +133,10 @@ class ProgramCache {
   /// Linked on first use, kept until clear(). The pointer stays valid until then. Errors: shaderFailed with
   /// the driver's log and the variant.
   Result<Program*> get(const ProgramVariant& variant);
+  /// Source of one stage as the cache would compile it, whether or not the variant is in the table.
+  Result<std::string> assemble(std::string_view fileName, const std::vector<std::string>& defines) const {
+    return assembleShader(provider_, fileName, defines, context_.capabilities());
+  }
   void clear();
   std::size_t size() const { return programs_.size(); }
   const Capabilities& capabilities() const { return context_.capabilities(); }

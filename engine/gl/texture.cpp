@@ -136,6 +136,13 @@ void Texture::update(Context& context, int x, int y, int width, int height, cons
       encoding.bytesPerTexel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
 }
 
+void Texture::bind(Context& context, int unit) const {
+  if (context.lost()) return;
+  context.functions().activeTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  context.functions().bindTexture(GL_TEXTURE_2D, name());
+  context.noteBindingsChanged();
+}
+
 void Texture::generateMipmaps(Context& context) {
   if (context.lost() || !*this) return;
   context.noteBindingsChanged();

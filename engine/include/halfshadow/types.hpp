@@ -90,7 +90,8 @@ enum class Output {
   shaded,        ///< lit colours of all lights; one light is evaluated forward, in the same pass
   visibility,    ///< light i in channel i, 8 bits; a single light in all four channels; 1 where no receiver is
   visibility16,  ///< first light, red high byte, green low byte; value = (256·red + green) / 65280
-  taps           ///< first light, texture fetches of the visibility function; red low byte, green high byte
+  taps,          ///< first light, texture fetches of the visibility function; red low byte, green high byte
+  lightsOnly     ///< light and mask passes alone: receivers are drawn by the host, forward (see bindForward)
 };
 
 /// Where a frame goes.
@@ -141,6 +142,17 @@ struct FrameReport {
   std::uint64_t memoryBytes = 0;  ///< of textures, renderbuffers and buffers that the engine holds
   const char* planText = "";      ///< passes, attachments and bytes as a table
   const char* planGraphviz = "";
+};
+
+/// GLSL ES 1.00 that a host puts right behind the #version line of its own shaders to receive one light's
+/// shadows in its own pass. Texts live until the engine's next call.
+struct ForwardRecord {
+  /// Declares `void halfshadow_receive(highp vec4 positionObject, highp vec3 facetNormalObject)`: call it in main.
+  const char* vertexGlsl = "";
+  /// Declares `float halfshadow_visibility()`: call it once, outside branches. Sets the default precision.
+  const char* fragmentGlsl = "";
+  int textureUnits = 0;           ///< that bindForward uses, at most
+  bool readsFacetNormal = false;  ///< the host must pass the triangle's normal (derivatives or highp are missing)
 };
 
 struct CapabilityRecord {

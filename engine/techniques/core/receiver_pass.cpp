@@ -37,10 +37,9 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
           .casting = shading.knowsSelfReceivers && item.casts};
 }
 
-void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
-                       const DrawItem& item, bool facets, const ShadingInputs* inputs) {
-  program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
-  const glm::dmat4 mapFromObject = shading.mapFromWorld * item.worldFromObject;
+void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
+                    const glm::dmat4& worldFromObject, bool facets) {
+  const glm::dmat4 mapFromObject = shading.mapFromWorld * worldFromObject;
   program.set(gl, "u_mapFromObject", glm::mat4(mapFromObject));
   if (facets) {
     // Rows s·z, t·z and z of the map are the space in which the facet's plane is taken.
@@ -54,6 +53,12 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
     for (int i = 0; i < 9; ++i) largest = std::max(largest, std::abs(normalMatrix[i / 3][i % 3]));
     program.set(gl, "u_mapNormalFromObject", glm::mat3(normalMatrix / std::max(largest, 1e-300)));
   }
+}
+
+void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
+                       const DrawItem& item, bool facets, const ShadingInputs* inputs) {
+  program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
+  setMapUniforms(gl, program, shading, item.worldFromObject, facets);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front().light->centerWorld, 0.0);
@@ -191,6 +196,32 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   }
   for (const DrawItem& item : items) {
     if (!item.casts) draw(item, &ReceiverPrograms::filter);
+  }
+}
+
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading) {
+  std::vector<std::string> defines = shading.defines;
+  defines.push_back("HS_FORWARD");
+  if (shading.usesFacetPlane && needsFacetStream(programs.capabilities())) defines.push_back("HS_FACET_NORMAL");
+  auto vertex = programs.assemble("forward.vert", defines);
+  if (!vertex) return vertex.error();
+  auto fragment = programs.assemble(shading.fragmentFile, defines);
+  if (!fragment) return fragment.error();
+  const auto withoutVersion = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
+  return ForwardTexts{withoutVersion(*vertex), withoutVersion(*fragment)};
+}
+
+void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
+                 const glm::dmat4& worldFromObject, int firstTextureUnit,
+                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf) {
+  if (shading.setUniforms) shading.setUniforms(program, context);
+  setMapUniforms(context, program, shading, worldFromObject, needsFacetStream(context.capabilities()));
+  int unit = firstTextureUnit;
+  for (const ReceiverTexture& texture : shading.textures) {
+    const gl::Texture* bound = texture.texture ? texture.texture : textureOf(texture.resource);
+    if (!program.has(texture.sampler) || bound == nullptr) continue;
+    bound->bind(context, unit);
+    program.setSampler(context, texture.sampler, unit++);
   }
 }
 

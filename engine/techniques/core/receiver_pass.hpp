@@ -62,6 +62,16 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
                    const View& view, std::span<const DrawItem> items, const ShadingInputs* shadingInputs,
                    const ReceiverTarget& target);
 
+/// Texts for a host's own shaders, see ForwardRecord. Errors: shaderFailed.
+struct ForwardTexts {
+  std::string vertex, fragment;
+};
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading);
+/// Where a host's program gets what the fragment text reads; the program is current.
+void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
+                 const glm::dmat4& worldFromObject, int firstTextureUnit,
+                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf);
+
 /// Resources that the pass must list as read.
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading);
 
