@@ -95,7 +95,10 @@ TEST_P(Accuracy, MeanPenumbraErrorIsTheProjectsFigure) {
               taps / scenes);
   EXPECT_LE(rmse / scenes, expected.most);
   EXPECT_GE(rmse / scenes, expected.least) << "too good for this method: does another one answer?";
-  EXPECT_LE(taps / scenes, expected.mostTaps + 1e-9);
+  // Without highp a fragment knows its place in the map to a texel only: masks must reach farther to stay
+  // provable, and leave more pixels to the filter.
+  const double slack = isForcedOff("highp") && expected.mostTaps < 16.0 ? 1.25 : 1.0;
+  EXPECT_LE(taps / scenes, expected.mostTaps * slack + 1e-9);
   if (HasFailure()) {
     std::printf("%s%s\n", numbers.c_str(),
                 saveComparison(expected.name + "_" + worstScene, truthOf(worstScene), worstImage).c_str());
