@@ -17,6 +17,7 @@ void addRenderCommand(CLI::App& app, ExitStatus& status);
 void addReferenceCommand(CLI::App& app, ExitStatus& status);
 void addMeasureCommand(CLI::App& app, ExitStatus& status);
 void addReportCommand(CLI::App& app, ExitStatus& status);
+void addProfileCommand(CLI::App& app, ExitStatus& status);
 void addCompareCommand(CLI::App& app, ExitStatus& status);
 void addValidateCommand(CLI::App& app, ExitStatus& status);
 

@@ -35,6 +35,7 @@ int run(int argc, char** argv) {
   addReferenceCommand(app, status);
   addMeasureCommand(app, status);
   addReportCommand(app, status);
+  addProfileCommand(app, status);
   addCompareCommand(app, status);
   addValidateCommand(app, status);
   try {

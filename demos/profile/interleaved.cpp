@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "profile/interleaved.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <set>
+
+namespace halfshadow::profile {
+namespace {
+using Clock = std::chrono::steady_clock;
+using measure::Configuration;
+using measure::Setting;
+
+/// As in the measurements: another light to the engine, the same texels.
+constexpr double kLightStep = 1e-7;
+
+bool supports(Engine& engine, const std::string& technique) {
+  for (std::size_t i = 0; i < engine.techniqueCount(); ++i) {
+    if (technique == engine.technique(i).id) return engine.technique(i).supported;
+  }
+  return true;  // choosing it reports the unknown name
+}
+
+/// Each configuration's settings with the defaults of what only the others set, since all share one engine.
+std::vector<Configuration> completed(Engine& engine, const std::vector<Configuration>& configurations) {
+  std::set<std::string> keys;
+  for (const Configuration& configuration : configurations) {
+    for (const Setting& setting : configuration.settings) keys.insert(setting.key);
+  }
+  std::vector<Setting> defaults;
+  for (std::size_t i = 0; i < engine.settingCount(); ++i) {
+    const SettingRecord record = engine.setting(i);
+    if (keys.count(record.key)) defaults.push_back({record.key, record.defaultValue});
+  }
+  std::vector<Configuration> result;
+  for (const Configuration& configuration : configurations) {
+    Configuration full{configuration.technique, defaults};
+    full.settings.insert(full.settings.end(), configuration.settings.begin(), configuration.settings.end());
+    result.push_back(std::move(full));
+  }
+  return result;
+}
+
+struct Samples {
+  std::vector<double> frame, light, receiver;
+};
+
+class Frames {
+ public:
+  Frames(measure::EngineSession& session, const scene::SceneDescription& scene,
+         const InterleavedOptions& options)
+      : session_(session), light_(scene.lights.front()) {
+    desc_.camera = measure::cameraDesc(*scene.camera);
+    desc_.target = {.width = options.width, .height = options.height};
+    const scene::Bounds bounds = scene::boundsWorld(scene, scene::ObjectFilter::all);
+    step_ = kLightStep * std::max(glm::length(light_.centerWorld - bounds.center()), bounds.radius());
+  }
+
+  Status choose(const Configuration& configuration) {
+    desc_.output = measure::visibilityOutputOf(configuration.technique);
+    return session_.choose(configuration.technique, configuration.settings);
+  }
+
+  /// Moves the light and renders; `milliseconds` is the whole frame's time.
+  Status dynamicFrame(Timing timing, FrameReport& report, double& milliseconds) {
+    session_.engine().finish();
+    const Clock::time_point start = Clock::now();
+    moved_ = !moved_;
+    scene::AreaLight light = light_;
+    if (moved_) light.centerWorld -= scene::emissionDirection(light) * step_;
+    if (Status status = session_.setLights({light}); !status) return status;
+    desc_.timing = timing;
+    if (Status status = session_.render(desc_, report); !status) return status;
+    session_.engine().finish();
+    milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return {};
+  }
+
+  Status repetition(Samples* samples) {
+    FrameReport report;
+    double milliseconds = 0.0;
+    // The first frame after a change of technique makes its targets; the second fills what the first
+    // replaced.
+    for (int i = 0; i < 2; ++i) {
+      if (Status status = dynamicFrame(Timing::off, report, milliseconds); !status) return status;
+    }
+    if (Status status = dynamicFrame(Timing::off, report, milliseconds); !status) return status;
+    if (samples != nullptr) samples->frame.push_back(milliseconds);
+    if (Status status = dynamicFrame(Timing::perPass, report, milliseconds); !status) return status;
+    if (samples == nullptr) return {};
+    double light = 0.0, receiver = 0.0;
+    for (std::size_t i = 0; i < report.passCount; ++i) {
+      (report.passes[i].lightSpace ? light : receiver) += report.passes[i].milliseconds;
+    }
+    samples->light.push_back(light);
+    samples->receiver.push_back(receiver);
+    return {};
+  }
+
+  Result<std::vector<float>> visibility() {
+    if (Status status = session_.setLights({light_}); !status) return status.error();
+    FrameReport report;
+    desc_.timing = Timing::off;
+    if (Status status = session_.render(desc_, report); !status) return status.error();
+    auto image = session_.read(desc_.target.width, desc_.target.height);
+    if (!image) return image.error();
+    return measure::decodeVisibility(*image, desc_.output);
+  }
+
+ private:
+  measure::EngineSession& session_;
+  scene::AreaLight light_;
+  RenderDesc desc_;
+  double step_ = 0.0;
+  bool moved_ = false;
+};
+
+}  // namespace
+
+Result<std::vector<FrameTimes>> interleavedTimes(measure::EngineSession& session,
+                                                 const scene::SceneDescription& scene,
+                                                 const std::vector<Configuration>& configurations,
+                                                 const InterleavedOptions& options) {
+  if (Status status = session.renewEngine(); !status) return status.error();
+  if (Status status = session.load(scene); !status) return status.error();
+  const std::vector<Configuration> full = completed(session.engine(), configurations);
+  std::vector<FrameTimes> times(full.size());
+  std::vector<Samples> samples(full.size());
+  for (std::size_t i = 0; i < full.size(); ++i)
+    times[i].supported = supports(session.engine(), full[i].technique);
+
+  Frames frames(session, scene, options);
+  // Repetition -1 warms up: programs are linked and caches filled.
+  for (int repetition = -1; repetition < options.repetitions; ++repetition) {
+    if (options.progress) {
+      options.progress("timing", static_cast<double>(repetition + 1) / (options.repetitions + 1));
+    }
+    for (std::size_t i = 0; i < full.size(); ++i) {
+      if (!times[i].supported) continue;
+      if (Status status = frames.choose(full[i]); !status) return status.error();
+      if (Status status = frames.repetition(repetition < 0 ? nullptr : &samples[i]); !status)
+        return status.error();
+    }
+  }
+  for (std::size_t i = 0; i < full.size(); ++i) {
+    if (!times[i].supported) continue;
+    if (Status status = frames.choose(full[i]); !status) return status.error();
+    auto visibility = frames.visibility();
+    if (!visibility) return visibility.error();
+    times[i].visibility = std::move(*visibility);
+    times[i].frame = measure::timeStatistics(std::move(samples[i].frame));
+    times[i].lightPasses = measure::timeStatistics(std::move(samples[i].light));
+    times[i].receiverPasses = measure::timeStatistics(std::move(samples[i].receiver));
+  }
+  return times;
+}
+
+}  // namespace halfshadow::profile

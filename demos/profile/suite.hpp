@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// What a profile measures, read from a JSON file: profiles/benchmarks/*.json.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.hpp"
+#include "measure/measurement.hpp"
+
+namespace halfshadow::profile {
+
+struct SuiteConfiguration {
+  std::string label;  ///< unique: "pcf 7"
+  measure::Configuration configuration;
+};
+
+/// The time of one configuration divided by that of another.
+struct Ratio {
+  std::string of, to;  ///< labels
+};
+
+struct Suite {
+  std::string name, description;
+  int width = 0, height = 0;
+  int samples = 0;      ///< light points per pixel of the truth
+  int repetitions = 0;  ///< timed frames of each configuration
+  std::vector<std::string> scenes;
+  std::vector<SuiteConfiguration> configurations;
+  std::vector<Ratio> ratios;
+};
+
+/// `nameOrFile`: a file, or the name of one in profiles/benchmarks ("quick"). Errors: fileNotFound,
+/// fileMalformed (which field is missing or wrong).
+Result<Suite> readSuite(const std::string& nameOrFile);
+
+}  // namespace halfshadow::profile
