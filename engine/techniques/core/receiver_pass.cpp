@@ -34,7 +34,8 @@ void bindTextures(framegraph::PassContext& context, gl::Program& program, const 
 ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
   return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
           .textured = shaded && item.baseColorTexture != nullptr,
-          .casting = shading.knowsSelfReceivers && item.casts};
+          .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
+                     (shading.selfReceivers == ReceiverShading::SelfReceivers::casting && item.casts)};
 }
 
 void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,

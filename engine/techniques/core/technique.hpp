@@ -111,7 +111,8 @@ struct ReceiverShading {
   glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
   FilterSkip skip = FilterSkip::none;
   bool usesFacetPlane = false;       ///< receiver-plane bias: by facet stream or by derivatives, per mesh
-  bool knowsSelfReceivers = false;   ///< receivers that cast are compiled with HS_CASTING_RECEIVER
+  /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.
+  enum class SelfReceivers { none, casting, all } selfReceivers = SelfReceivers::none;
   bool forward = true;               ///< may be evaluated inside a host's own fragment shader
 };
 

@@ -91,4 +91,19 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
   };
 }
 
+void addSelfReceiverSearch(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
+  shading.defines.push_back("HS_SEARCH 4");
+  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+  const MapSpace& space = depth.space;
+  const double texelsPerStep = std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
+                               (space.farthestCasterDepth - space.nearestCasterDepth) / 255.0;
+  // The benchmark scenes have at most 3 texels of width a step; a caster a hundred times nearer to the light than
+  // the others gives tens, and every penumbra would look hard.
+  if (texelsPerStep <= 4.0) return;
+  shading.selfReceivers = ReceiverShading::SelfReceivers::all;
+  frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " blocker means",
+                          "wide-depth-range: casters are both very near the light and far from it; blockers are "
+                          "searched by taps");
+}
+
 }  // namespace halfshadow::techniques

@@ -75,18 +75,18 @@ class PcfQuantized final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
     shading.defines.push_back("HS_NEAREST_LEVEL");
     if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
-    // Casting receivers search by 4 x 4 taps: enough to tell near blockers from far ones.
-    shading.knowsSelfReceivers = true;
-    shading.defines.push_back("HS_SEARCH 4");
+    addSelfReceiverSearch(frame, *depth, shading);
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
-    // Bands in equal ratios from the widest penumbra that this frame can have down to two texels.
+    // Bands half an octave apart, from the widest penumbra that this frame can have downwards. A caster close to
+    // the light makes that width huge and rare: then the same bands are spread down to two texels.
     const MapSpace& space = depth->space;
-    const double widest = std::max(widestPenumbraTexels(frame, space), 2.0);
+    const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
     const int bands = frame.settings.integer("pcf-quantized.bands");
-    const double narrowest = std::max(widest * std::exp2(-0.5 * (bands - 1)), 1.0);
+    const double octavesApart = widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 0.5;
+    const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
     const double aspect = space.kernelTexelsPerDepth.x > 0 ? space.kernelTexelsPerDepth.y / space.kernelTexelsPerDepth.x : 1.0;
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, aspect);

@@ -28,9 +28,7 @@ class PcssMip final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
     if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
-    // Casting receivers search by 4 x 4 taps: enough to tell near blockers from far ones.
-    shading.knowsSelfReceivers = true;
-    shading.defines.push_back("HS_SEARCH 4");
+    addSelfReceiverSearch(frame, *depth, shading);
     addPenumbraScale(shading, depth->space);
     addBlockerPyramid(shading, *depth, *pyramid);
     return shading;
