@@ -111,13 +111,21 @@ std::vector<ShaderVariant> shaderVariants() {
   const std::vector<Rung> kDepthRungs = {
       {{}, true}, {{"HS_DEPTH_PACKED24"}, true}, {{"HS_DEPTH_PACKED16"}, false}};
   const std::vector<Rung> kPlainRungs = {{{}, true}, {{}, false}};
-  const std::vector<Defines> kOutputs = {
-      {}, {"HS_VISIBILITY_16"}, {"HS_COUNT_TAPS"}, {"HS_SHADED"}, {"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}};
+  const std::vector<Defines> kOutputs = {{},
+                                         {"HS_VISIBILITY_16"},
+                                         {"HS_COUNT_TAPS"},
+                                         {"HS_SHADED"},
+                                         {"HS_SHADED", "HS_BASE_COLOR_TEXTURE"},
+                                         {"HS_FORWARD"}};
 
   std::vector<ShaderVariant> variants;
   const auto add = [&](const ShaderFamily& family, const Rung& rung, std::initializer_list<Defines> parts,
                        bool derivatives) {
     ShaderVariant variant{family.vertexFile, family.fragmentFile, rung.defines, rung.highp, derivatives};
+    // Hosts put these two in front of their own main().
+    for (const Defines& part : parts) {
+      if (part == Defines{"HS_FORWARD"}) variant.vertexFile = "forward.vert";
+    }
     for (const Defines& part : parts) variant.defines.insert(variant.defines.end(), part.begin(), part.end());
     variants.push_back(std::move(variant));
   };
@@ -138,7 +146,8 @@ std::vector<ShaderVariant> shaderVariants() {
           const std::size_t outputs = &set == &family.defineSets.front() ? kOutputs.size() : 1;
           for (const Defines& output : std::span(kOutputs).first(outputs)) {
             add(family, rung, {set, plane, output}, !facet);
-            if (!family.twoDraws || output == Defines{"HS_COUNT_TAPS"}) continue;
+            if (!family.twoDraws || output == Defines{"HS_COUNT_TAPS"} || output == Defines{"HS_FORWARD"})
+              continue;
             for (const char* phase : {"HS_PHASE_CLASSIFY", "HS_PHASE_FILTER"}) {
               add(family, rung, {set, plane, output, {phase}}, !facet);
             }
