@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include <cmath>
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
@@ -114,14 +115,21 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   if (desc.vertexCount != object.mesh.positions.size()) {
     return state.fail({ErrorCode::invalidArgument, "setVertices needs as many vertices as the object was added with"});
   }
+  if (desc.positions == nullptr || desc.positionStrideBytes < 12) {
+    return state.fail({ErrorCode::invalidMesh, "setVertices needs positions, at least 12 bytes apart"});
+  }
+  // Checked before anything is replaced: a refused call leaves the object as it was.
+  std::vector<glm::vec3> positions(desc.vertexCount);
+  const auto* bytes = reinterpret_cast<const std::byte*>(desc.positions);
   for (std::uint32_t i = 0; i < desc.vertexCount; ++i) {
-    const auto* position = reinterpret_cast<const float*>(reinterpret_cast<const std::byte*>(desc.positions) +
-                                                          i * desc.positionStrideBytes);
-    if (!std::isfinite(position[0] + position[1] + position[2])) {
+    std::memcpy(&positions[i], bytes + i * desc.positionStrideBytes, 12);
+    if (!std::isfinite(positions[i].x) || !std::isfinite(positions[i].y) || !std::isfinite(positions[i].z)) {
       return state.fail({ErrorCode::invalidMesh, "vertex " + std::to_string(i) + " is NaN or infinite"});
     }
-    object.mesh.positions[i] = {position[0], position[1], position[2]};
-    if (desc.normals && !object.mesh.normals.empty()) object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
+  }
+  object.mesh.positions = std::move(positions);
+  if (desc.normals && !object.mesh.normals.empty()) {
+    for (std::uint32_t i = 0; i < desc.vertexCount; ++i) object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
   }
   gl::HostStateGuard guard(*state.context, state.policy());
   const Status updated = object.gpu.update(*state.context, object.mesh);
