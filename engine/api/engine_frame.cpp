@@ -291,6 +291,7 @@ std::uint32_t Engine::outputTexture() const {
 Outcome Engine::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
   State& state = *state_;
   if (state.context->lost()) return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+  gl::HostStateGuard guard(*state.context, state.policy());  // framebufferFor may make and bind one
   const gl::Framebuffer* framebuffer =
       state.lastFrame ? state.executor->framebufferFor(state.lastFrame->graph, state.lastFrame->color) : nullptr;
   if (framebuffer == nullptr) {
@@ -300,7 +301,6 @@ Outcome Engine::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
   if (rgba == nullptr || byteCount < width * height * 4) {
     return state.fail({ErrorCode::invalidArgument, "readOutput needs width x height x 4 bytes"});
   }
-  gl::HostStateGuard guard(*state.context, state.policy());
   state.encoder->beginFrame();
   state.encoder->readPixels(*framebuffer, {0, 0, state.outputWidth, state.outputHeight}, rgba);
   for (std::size_t y = 0; y < height / 2; ++y) {
