@@ -110,6 +110,10 @@ void addDriverArguments(CLI::App& app, DriverArguments& arguments) {
       ->capture_default_str();
   app.add_option("--egl-library", arguments.eglLibrary,
                  "file of the EGL library (default: the driver's own)");
+  app.add_option("--device-profile", arguments.deviceProfile,
+                 "measured choices for the device: FILE (device.json of `halfshadow profile`), auto (the kept "
+                 "profile of this renderer, if any) or none")
+      ->capture_default_str();
   app.add_option("--force", arguments.force,
                  "CAPABILITY=off: do as if the device lacked it, e.g. depth-texture=off; repeatable "
                  "(names: `halfshadow info`; default: none)")
@@ -165,6 +169,7 @@ Result<scene::SceneDescription> openScene(const SceneArguments& arguments) {
 
 Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments) {
   measure::SessionOptions options{.driver = arguments.driver, .eglLibrary = arguments.eglLibrary};
+  options.deviceProfile = arguments.deviceProfile;
   for (const std::string& text : arguments.force) options.forcedOff.push_back(text.substr(0, text.find('=')));
   auto session = measure::EngineSession::open(options);
   if (!session && session.error().code == ErrorCode::invalidArgument && !options.forcedOff.empty()) {

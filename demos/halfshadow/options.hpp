@@ -31,7 +31,7 @@ struct SizeArguments {
 };
 
 struct DriverArguments {
-  std::string driver = "default", eglLibrary;
+  std::string driver = "default", eglLibrary, deviceProfile = "auto";
   std::vector<std::string> force;  ///< "depth-texture=off"
 };
 
@@ -49,7 +49,7 @@ CLI::Validator endsWith(const std::string& extension);
 void addSceneArguments(CLI::App& app, SceneArguments& arguments);
 /// --size.
 void addSizeArgument(CLI::App& app, SizeArguments& arguments);
-/// --driver, --egl-library, --force.
+/// --driver, --egl-library, --force, --device-profile.
 void addDriverArguments(CLI::App& app, DriverArguments& arguments);
 /// --set.
 void addSettingArguments(CLI::App& app, SettingArguments& arguments);

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "measure/device_settings.hpp"
+
 namespace halfshadow::measure {
 namespace {
 void store(const glm::dvec3& vector, double target[3]) {
@@ -85,7 +87,10 @@ Status EngineSession::renewEngine() {
        .forcedOffCount = forcedOff.size(),
        .hostState = HostState::leaveDirty},
       outcome));
-  return toStatus(outcome);
+  if (!outcome.ok()) return toStatus(outcome);
+  auto measured = deviceSettings(options_.deviceProfile, engine_->driver().renderer);
+  if (!measured) return measured.error();
+  return set(*measured);
 }
 
 int EngineSession::sizeLimit() const {

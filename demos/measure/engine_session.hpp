@@ -20,6 +20,7 @@ struct SessionOptions {
   std::string driver = "default";        ///< see HeadlessOptions::driver
   std::string eglLibrary;                ///< see HeadlessOptions::eglLibrary
   std::vector<std::string> forcedOff{};  ///< capability names
+  std::string deviceProfile = "auto";    ///< see deviceSettings
 };
 
 struct Setting {
