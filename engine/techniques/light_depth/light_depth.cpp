@@ -71,7 +71,7 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   pass.execute = [program = *program, ramp, space = depth.space, items = std::move(items)](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
-    program->set(encoder.context(), "u_nearDistance", static_cast<float>(space.nearDistance));
+    program->set(encoder.context(), "u_nearDistance", 1.0f);
     if (ramp) {
       const gl::TextureBinding binding{program->samplerUnit("u_byteRamp"), ramp};
       encoder.bindTextures({&binding, 1});
@@ -101,10 +101,10 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   const double size = space.mapSize;
   // A quarter of the range per texel: the light grazes the facet, whose own shading is then dark anyway.
   const double largestGradient = 0.25 * space.depthUnit;
-  const glm::vec4 map(size, 1.0 / size, space.nearDistance * space.depthUnit, largestGradient);
+  const glm::vec4 map(size, 1.0 / size, space.depthUnit, largestGradient);
   const glm::vec4 bias(knob * space.quantum * space.depthUnit, knob * (0.1 + positionError),
                        knob * (0.6 + positionError), 0.0);
-  const glm::vec4 plane(space.nearDistance * space.depthUnit, size, size, largestGradient);
+  const glm::vec4 plane(space.depthUnit, size, size, largestGradient);
   shading.setUniforms = [map, bias, plane](gl::Program& program, gl::Context& context) {
     program.set(context, "u_map", map);
     program.set(context, "u_bias", bias);

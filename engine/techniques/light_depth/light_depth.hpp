@@ -25,7 +25,7 @@ const char* depthStorageName(DepthStorage storage);
 /// The map's space. Stored depth d = 1 - near/z: affine in reciprocal distance, so that planes stay planes over
 /// the map; 0 at the near distance, 1 infinitely far, where empty texels are: a receiver is never beyond them.
 struct MapSpace {
-  glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z), s and t in [0, 1] over the map
+  glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z), s and t in [0, 1] over the map, z in near distances
   glm::dmat4 mapClipFromWorld{1.0};  ///< the same as OpenGL clip coordinates
   glm::dvec3 originWorld{0.0};       ///< the point that the map is seen from
   double nearDistance = 1.0;

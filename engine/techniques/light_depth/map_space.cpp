@@ -55,7 +55,8 @@ MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage) {
     clipFromMap[3][axis] = -1.0;
   }
   clipFromMap[3][3] = 1.0;
-  space.mapFromWorld = mapFromLight * fit.lightFromWorld;
+  // In units of the near distance: z begins at 1 however large the world is, and fp16 fragments keep their digits.
+  space.mapFromWorld = (mapFromLight / fit.nearDistance) * fit.lightFromWorld;
   space.mapClipFromWorld = clipFromMap * space.mapFromWorld;
   // 1/zb - 1/zr = (dr - db) / near; the light's side L spans f·L·(1/zb - 1/zr) texels.
   space.kernelTexelsPerDepth = fit.texelsPerTangent() * (2.0 * fit.halfSize) / fit.nearDistance;
