@@ -30,6 +30,21 @@ std::vector<Defines> joined(std::initializer_list<std::vector<Defines>> lists) {
   return all;
 }
 
+/// Both presets with each prefilter; the most slices; elongated lights.
+std::vector<Defines> occlusionSets() {
+  std::vector<Defines> sets;
+  for (const char* filter : {"HS_FILTER_NBUFFER", "HS_FILTER_MIPMAP", "HS_FILTER_SAT"}) {
+    sets.push_back({"HS_SLOTS 4", "HS_TEXTURES 2", "HS_BOXES 1", filter, "HS_COMBINE_SUM", "HS_SLICE_DEPTH",
+                    "HS_CONCENTRIC"});
+    sets.push_back({"HS_SLOTS 16", "HS_TEXTURES 4", "HS_BOXES 1", filter, "HS_COMBINE_PRODUCT"});
+  }
+  sets.push_back({"HS_SLOTS 4", "HS_TEXTURES 2", "HS_BOXES 1", "HS_FILTER_SAT", "HS_COMBINE_SUM",
+                  "HS_SLICE_DEPTH", "HS_SAT_SMOOTH"});
+  sets.push_back({"HS_SLOTS 14", "HS_TEXTURES 7", "HS_BOXES 8", "HS_FILTER_NBUFFER", "HS_COMBINE_MAX",
+                  "HS_SLICE_DEPTH"});
+  return sets;
+}
+
 std::vector<Defines> searches(const std::string& macro) {
   std::vector<Defines> sets;
   for (const char* size : {"2", "9"}) {
@@ -67,6 +82,14 @@ const std::vector<ShaderFamily>& shaderFamilies() {
        Depth::independent,
        Kind::pass,
        {{"HS_KERNEL 3"}, {"HS_KERNEL 9"}, {"HS_KERNEL 3", "HS_MOMENTS_8"}}},
+      {"occlusion_slices.vert",
+       "occlusion_slices.frag",
+       Depth::independent,
+       Kind::pass,
+       {{}, {"HS_SLICE_DEPTH"}}},
+      {"fullscreen.vert", "occlusion_level.frag", Depth::independent, Kind::pass, {{}, {"HS_FIRST_LEVEL"}}},
+      {"fullscreen.vert", "occlusion_sum.frag", Depth::independent, Kind::pass, {{}, {"HS_FIRST_STEP"}}},
+      {"receiver.vert", "occlusion_textures.frag", Depth::independent, Kind::receiver, occlusionSets()},
       {"receiver.vert", "none.frag", Depth::independent, Kind::receiver},
       {"receiver.vert",
        "hard.frag",

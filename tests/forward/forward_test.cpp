@@ -154,7 +154,8 @@ TEST_P(Forward, isTheImageOfTheScreenSpaceRoute) {
   EXPECT_LE(differing, 138u) << GetParam();
 }
 INSTANTIATE_TEST_SUITE_P(Techniques, Forward,
-                         testing::Values("hard", "pcf", "pcf-masked", "pcf-quantized", "pcss", "pcss-mip", "vsm"));
+                         testing::Values("hard", "pcf", "pcf-masked", "pcf-quantized", "pcss", "pcss-mip", "vsm",
+                                         "occlusion-textures"));
 
 class ForwardErrors : public Forward {};
 TEST_F(ForwardErrors, nameTheFix) {

@@ -4,6 +4,7 @@
 
 #include "techniques/hard/hard.hpp"
 #include "techniques/none/none.hpp"
+#include "techniques/occlusion_textures/occlusion_textures.hpp"
 #include "techniques/pcf/pcf.hpp"
 #include "techniques/pcf_quantized/pcf_quantized.hpp"
 #include "techniques/pcss/pcss.hpp"
@@ -16,7 +17,7 @@ namespace halfshadow::techniques {
 std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
   for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip, makeVsm,
-                          makeSampled}) {
+                          makeOcclusionTextures, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;

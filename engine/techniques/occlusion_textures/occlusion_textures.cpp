@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/occlusion_textures/occlusion_textures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "techniques/occlusion_textures/slice_passes.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// An elongated light's kernel is covered by at most this many squares.
+constexpr int kMostBoxes = 8;
+/// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
+/// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
+constexpr double kOwnSurfaceBias = 0.02, kOwnSurfaceFade = 0.02;
+
+constexpr gl::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
+                                        "u_occlusion4", "u_occlusion5", "u_occlusion6", "u_occlusion7"};
+
+enum class Preset { paper, tuned };
+struct Choices {
+  Preset preset = Preset::tuned;
+  SliceFilter filter = SliceFilter::nbuffer;
+  std::string combine;
+  SliceOptions slicing;
+  bool paper() const { return preset == Preset::paper; }
+};
+
+Choices readChoices(const Settings& settings) {
+  const auto choice = [&](const char* key) {
+    return settings.choice(std::string("occlusion-textures.") + key);
+  };
+  Choices choices;
+  choices.preset = choice("preset") == "paper" ? Preset::paper : Preset::tuned;
+  const std::string filter = choice("filter");
+  choices.filter = filter == "sat"      ? SliceFilter::summedArea
+                   : filter == "mipmap" ? SliceFilter::mipmap
+                                        : SliceFilter::nbuffer;
+  choices.combine = choice("combine");
+  if (choices.combine == "auto") choices.combine = choices.paper() ? "product" : "sum";
+  SliceOptions& slicing = choices.slicing;
+  slicing.slices = settings.integer("occlusion-textures.slices");
+  slicing.mapSize = settings.integer("occlusion-textures.map_size");
+  if (choice("projection") == "orthographic") slicing.projection = SliceProjection::orthographic;
+  const std::string center = choice("center");
+  if (center == "behind" || (center == "auto" && choices.paper())) slicing.center = SliceCenter::behind;
+  if (choices.paper() && choice("leak_fix") == "on") slicing.successors = SliceSuccessors::kept;
+  return choices;
+}
+
+std::string filterDefine(SliceFilter filter) {
+  switch (filter) {
+    case SliceFilter::mipmap:
+      return "HS_FILTER_MIPMAP";
+    case SliceFilter::nbuffer:
+      return "HS_FILTER_NBUFFER";
+    case SliceFilter::summedArea:
+      return "HS_FILTER_SAT";
+  }
+  return {};
+}
+
+Status checkTextureUnits(const LightFrame& frame, std::size_t textures, const SliceOptions& slicing) {
+  const bool textured = std::ranges::any_of(
+      frame.receivers, [](const DrawItem& item) { return item.baseColorTexture != nullptr; });
+  const std::size_t needed = textures + (textured ? 1 : 0);
+  if (needed <= static_cast<std::size_t>(frame.capabilities.limits.fragmentTextureUnits)) return {};
+  return Error{ErrorCode::invalidArgument,
+               "occlusion-textures.slices=" + std::to_string(slicing.slices) + " needs " +
+                   std::to_string(needed) + " texture units, but this device has " +
+                   std::to_string(frame.capabilities.limits.fragmentTextureUnits) + "; choose fewer slices"};
+}
+
+class OcclusionTextures final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "occlusion-textures",
+        .paper = "Eisemann, Décoret 2006",
+        .summary =
+            "casters in slices parallel to the light, prefiltered so that two fetches give the share of the "
+            "light a slice covers",
+        .guarantees =
+            "cost depends neither on the light's size nor on the scene's complexity, but for drawing the "
+            "slices; "
+            "summed-area tables are exact",
+        .knownFailures =
+            "tuned: only what the light's centre sees casts a shadow, and occluders in the receiver's own "
+            "slice "
+            "blend with its surface; paper: surfaces across several slices count as independent, and casters "
+            "shadow themselves"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    const auto choice = [](const char* key, const char* otherwise, std::vector<std::string> choices,
+                           const char* text) {
+      return SettingInfo{std::string("occlusion-textures.") + key,
+                         SettingType::choice,
+                         otherwise,
+                         0,
+                         0,
+                         std::move(choices),
+                         text};
+    };
+    return {choice("preset", "tuned", {"paper", "tuned"},
+                   "paper: binary slices on their far planes, multiplied; tuned: first hits with their mean "
+                   "depth, added"),
+            {"occlusion-textures.slices",
+             SettingType::integer,
+             "4",
+             4,
+             16,
+             {},
+             "slices between the nearest and the farthest caster"},
+            {"occlusion-textures.map_size",
+             SettingType::integer,
+             "256",
+             64,
+             1024,
+             {},
+             "side of the occlusion textures in texels"},
+            choice("filter", "nbuffer", {"mipmap", "nbuffer", "sat"},
+                   "prefilter: hardware mipmaps, N-buffers, or exact summed-area tables"),
+            choice("combine", "auto", {"auto", "product", "sum", "max"},
+                   "how shares of slices become one; auto: product for paper, sum for tuned"),
+            choice("projection", "perspective", {"perspective", "orthographic"}, "of the slices"),
+            choice("center", "auto", {"auto", "light", "behind"},
+                   "of the perspective projection: the light's centre, or behind it as far as the paper puts "
+                   "it; auto: by preset"),
+            choice("leak_fix", "off", {"off", "on"},
+                   "paper: also project each slice on the next one, which closes the gaps of thin occluders; "
+                   "tuned has no such gaps")};
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    const Choices choices = readChoices(frame.settings);
+    if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
+      return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
+                                                   " is no power of two; choose 64, 128, 256, 512 or 1024"};
+    }
+    auto space = makeSliceSpace(frame.fit, frame.casterPointsWorld, choices.slicing);
+    if (!space) return space.error();
+    for (const int empty : space->emptySlices) {
+      frame.graph.noteSkipped(
+          "light " + std::to_string(frame.lightIndex) + " occlusion slice " + std::to_string(empty + 1),
+          "no caster lies between its borders");
+    }
+    const SliceContent content = choices.paper() ? SliceContent::everything : SliceContent::nearestFaces;
+    auto slices = declareSlices(frame, *space, content, choices.filter);
+    if (!slices) return slices.error();
+    if (Status s = checkTextureUnits(frame, slices->textures.size(), choices.slicing); !s) return s.error();
+    auto filtered = declareSliceFilter(frame, *space, *slices, choices.filter);
+    if (!filtered) return filtered.error();
+    return receiverShading(choices, *space, *slices, *filtered);
+  }
+
+ private:
+  static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
+                                         const SliceTextures& slices, const FilteredSlices& filtered) {
+    const std::size_t slots = filtered.textures.size() * static_cast<std::size_t>(slices.slicesPerTexture);
+    const double shorter = std::min(space.shape.x, space.shape.y);
+    const int boxes = std::clamp(static_cast<int>(std::lround(1.0 / std::max(shorter, 1e-3))), 1, kMostBoxes);
+    ReceiverShading shading;
+    shading.fragmentFile = "occlusion_textures.frag";
+    shading.mapFromWorld = space.mapFromWorld;
+    shading.defines = {"HS_SLOTS " + std::to_string(slots),
+                       "HS_TEXTURES " + std::to_string(filtered.textures.size()),
+                       "HS_BOXES " + std::to_string(boxes), filterDefine(choices.filter),
+                       choices.combine == "product" ? "HS_COMBINE_PRODUCT"
+                       : choices.combine == "max"   ? "HS_COMBINE_MAX"
+                                                    : "HS_COMBINE_SUM"};
+    if (!choices.paper()) {
+      shading.defines.push_back("HS_SLICE_DEPTH");
+      if (choices.filter == SliceFilter::summedArea) shading.defines.push_back("HS_SAT_SMOOTH");
+    }
+    if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
+    for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
+      shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
+    }
+    std::vector<glm::vec4> borders;
+    for (const Slice& slice : space.slices)
+      borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low), 0);
+    // Channels without slice lie behind every receiver.
+    borders.resize(slots, glm::vec4(1e4f, 1e4f, 0, 0));
+    const glm::vec4 place(space.center, space.ratio0, space.ratio1);
+    const glm::vec4 width(space.width0, space.width1, space.widthScale, 0);
+    const glm::vec4 own(space.divisorScale, space.divisorConstant, kOwnSurfaceBias, 1.0 / kOwnSurfaceFade);
+    const glm::vec4 shape(space.shape, std::max(shorter, 1.0 / boxes), 0);
+    shading.setUniforms = [borders, place, width, own, shape, layout = filtered.layout](
+                              gl::Program& program, gl::Context& context) {
+      program.setArray(context, "u_slices", borders.data(), static_cast<int>(borders.size()));
+      program.set(context, "u_slicePlace", place);
+      program.set(context, "u_sliceWidth", width);
+      program.set(context, "u_sliceOwn", own);
+      program.set(context, "u_occlusionLayout", layout);
+      program.set(context, "u_kernelShape", shape);
+    };
+    return shading;
+  }
+};
+}  // namespace
+
+std::unique_ptr<Technique> makeOcclusionTextures() {
+  return std::make_unique<OcclusionTextures>();
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/occlusion_textures/slice_space.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace halfshadow::techniques {
+namespace {
+// The pyramid of the paper degenerates to a prism when the light is larger than the casters: beyond this
+// multiple of their distance nothing changes any more.
+constexpr double kLargestOffset = 16.0;
+// Casters farther off-axis are cut, as in planner::LightFitOptions.
+constexpr double kMaxTangent = 8.0;
+// Longest side of the light's frustum over its shortest, in texels, that is evened out by stretching the map.
+constexpr double kLargestStretch = 4.0;
+// Share of the casters' depth range left free at both ends, so that no caster lies on the border itself.
+constexpr double kDepthMargin = 1.0 / 256;
+
+struct Interval {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+  double extent() const { return high - low; }
+  /// Grown about its middle.
+  void grow(double extentWanted) {
+    const double middle = 0.5 * (low + high);
+    low = middle - 0.5 * extentWanted;
+    high = middle + 0.5 * extentWanted;
+  }
+};
+
+/// Distance behind the light at which the pyramid through the light's outline just holds all points.
+/// Based on: Eisemann, Décoret 2006, section 3.4 (centre of projection with offset).
+double pyramidOffset(const planner::LightFit& fit, const std::vector<glm::dvec3>& points) {
+  double offset = kLargestOffset * fit.farDistance;
+  for (const glm::dvec3& p : points) {
+    for (int axis = 0; axis < 2; ++axis) {
+      const double beyond = std::abs(p[axis]) - fit.halfSize[axis];
+      if (beyond > 0.0) offset = std::min(offset, fit.halfSize[axis] * p.z / beyond);
+    }
+  }
+  return offset;
+}
+
+/// Sorts slices into those that triangles (three points each) touch and the others.
+void sortSlices(const std::vector<double>& borders, const std::vector<double>& pointSlices,
+                SliceSuccessors successors, SliceSpace& space) {
+  std::vector<bool> occupied(borders.size() - 1, false);
+  for (std::size_t i = 0; i + 2 < pointSlices.size(); i += 3) {
+    const auto [low, high] = std::minmax({pointSlices[i], pointSlices[i + 1], pointSlices[i + 2]});
+    for (std::size_t k = 0; k < occupied.size(); ++k) {
+      if (low <= borders[k + 1] && high >= borders[k]) occupied[k] = true;
+    }
+  }
+  const bool closing = successors == SliceSuccessors::kept;
+  for (std::size_t k = 0; k < occupied.size(); ++k) {
+    const bool follows = closing && k > 0 && occupied[k - 1];
+    if (occupied[k] || follows) {
+      space.slices.push_back(
+          {.low = borders[k], .high = borders[k + 1], .casterLow = borders[follows ? k - 1 : k]});
+    } else {
+      space.emptySlices.push_back(static_cast<int>(k));
+    }
+  }
+}
+}  // namespace
+
+Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
+                                  const SliceOptions& options) {
+  if (options.slices < 4 || options.slices > 16) {
+    return Error{ErrorCode::invalidArgument, "occlusion-textures.slices=" + std::to_string(options.slices) +
+                                                 " is outside 4-16; choose 4, 8, 12 or 16"};
+  }
+  if (options.mapSize < 64 || options.mapSize > 1024) {
+    return Error{ErrorCode::invalidArgument,
+                 "occlusion-textures.map_size=" + std::to_string(options.mapSize) + " is outside 64-1024"};
+  }
+  const bool perspective = options.projection == SliceProjection::perspective;
+  std::vector<glm::dvec3> points;
+  points.reserve(casterPointsWorld.size());
+  Interval depth;
+  for (const glm::dvec3& world : casterPointsWorld) {
+    glm::dvec3 p = glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0));
+    p.z = std::max(p.z, fit.nearDistance);
+    depth.include(p.z);
+    points.push_back(p);
+  }
+  if (fit.empty || points.empty() || !(depth.high > 0.0)) {
+    return Error{ErrorCode::invalidArgument,
+                 "no caster lies in front of the light, so there is nothing to slice"};
+  }
+  SliceSpace space;
+  space.mapSize = options.mapSize;
+  const double offset =
+      perspective && options.center == SliceCenter::behind ? pyramidOffset(fit, points) : 0.0;
+  space.offsetDistance = offset;
+
+  // Flat casters parallel to the light still get slices of some thickness.
+  const double margin = std::max(depth.extent() * kDepthMargin, 1e-6 * depth.high);
+  const double near = std::max(depth.low - margin, 0.5 * depth.low), far = depth.high + margin;
+  // Reciprocal depth at both ends as seen from the centre of projection.
+  const double qNear = 1.0 / (near + offset), qFar = 1.0 / (far + offset);
+  const auto sliceOf = [&](double z) {
+    return perspective ? (qNear - 1.0 / (z + offset)) / (qNear - qFar) : (z - near) / (far - near);
+  };
+
+  // The map's extent: tangents seen from the centre of projection, or lengths.
+  Interval sides[2];
+  for (int axis = 0; axis < 2; ++axis) {
+    for (const glm::dvec3& p : points) sides[axis].include(perspective ? p[axis] / (p.z + offset) : p[axis]);
+    const double limit = perspective ? kMaxTangent : std::numeric_limits<double>::infinity();
+    sides[axis] = {std::max(sides[axis].low, -limit), std::min(sides[axis].high, limit)};
+    if (!(sides[axis].high >= sides[axis].low)) {
+      return Error{ErrorCode::invalidArgument,
+                   "all casters lie more than 82 degrees off the light's axis; turn the light towards them"};
+    }
+    const double least = 1e-4 * (perspective ? 1.0 : far);
+    const double usable = options.mapSize - 2.0 * options.borderTexels;
+    sides[axis].grow(std::max(sides[axis].extent(), least) * options.mapSize / usable);
+  }
+  // Filters are square: stretch the smaller side until the light's frustum is square in texels.
+  const glm::dvec2 light = fit.halfSize;
+  if (std::max(light.x, light.y) > 0.0) {
+    const double ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
+                                       : kLargestStretch;
+    const double wanted = sides[0].extent() * ratio;
+    if (wanted > sides[1].extent()) {
+      sides[1].grow(wanted);
+    } else {
+      sides[0].grow(sides[1].extent() / ratio);
+    }
+  }
+  const glm::dvec2 low{sides[0].low, sides[1].low}, extent{sides[0].extent(), sides[1].extent()};
+  space.center = -low / extent;
+  const glm::dvec2 lightInMap = light / extent;
+  const double longest = std::max(lightInMap.x, lightInMap.y);
+  if (longest > 0.0) space.shape = lightInMap / longest;
+
+  // Rows of (x, y, n, z), all divided by the farthest distance.
+  const double unit = 1.0 / far;
+  glm::dmat4 mapFromLight(0.0);
+  mapFromLight[0][0] = unit / extent.x;
+  mapFromLight[1][1] = unit / extent.y;
+  mapFromLight[2][3] = unit;
+  const double side = options.mapSize * 2.0 * longest;
+  glm::dmat4 clipFromLight(0.0);
+  if (perspective) {
+    // s = (qNear (z + offset) - 1) / ((qNear - qFar) (z + offset))
+    const double scale = 1.0 / (qNear - qFar);
+    mapFromLight[2][2] = scale * qNear * unit;
+    mapFromLight[3][2] = scale * (qNear * offset - 1.0) * unit;
+    space.divisorScale = 1.0;
+    space.divisorConstant = offset * unit;
+    // On plane s: q = qNear + s (qFar - qNear), z = 1/q - offset, ratio = z q = 1 - offset q.
+    space.ratio0 = 1.0 - offset * qNear;
+    space.ratio1 = -offset * (qFar - qNear);
+    space.width0 = side * qNear;
+    space.width1 = side * (qFar - qNear);
+    clipFromLight[0][0] = 2.0 / extent.x;
+    clipFromLight[1][1] = 2.0 / extent.y;
+    clipFromLight[2] = glm::dvec4(2.0 * space.center - 1.0, 2.0 * scale * qNear - 1.0, 1.0);
+    clipFromLight[3] = glm::dvec4((2.0 * space.center - 1.0) * offset,
+                                  2.0 * scale * (qNear * offset - 1.0) - offset, offset);
+    // Homogeneous coordinates near 1: they cross the rasteriser as mediump varyings.
+    clipFromLight *= unit;
+    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld) * glm::dvec4(0, 0, -offset, 1));
+  } else {
+    const double scale = 1.0 / (far - near);
+    mapFromLight[2][2] = scale * unit;
+    mapFromLight[3][2] = -near * scale * unit;
+    space.divisorScale = 0.0;
+    space.divisorConstant = unit;
+    space.ratio0 = near;
+    space.ratio1 = far - near;
+    space.width0 = side;
+    space.width1 = 0.0;
+    clipFromLight[0][0] = 2.0 / extent.x;
+    clipFromLight[1][1] = 2.0 / extent.y;
+    clipFromLight[2][2] = 2.0 * scale;
+    clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -2.0 * near * scale - 1.0, 1.0);
+    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
+  }
+  // z is divided by `far` in the map, so 1/z of the shader is far times the true one.
+  space.widthScale = side * unit;
+  space.mapFromWorld = mapFromLight * fit.lightFromWorld;
+  space.clipFromWorld = clipFromLight * fit.lightFromWorld;
+  space.widestTexels = space.width0;
+
+  std::vector<double> borders, pointSlices;
+  for (int k = 0; k <= options.slices; ++k) {
+    const double share = static_cast<double>(k) / options.slices;
+    borders.push_back(sliceOf(near + share * (far - near)));
+  }
+  pointSlices.reserve(points.size());
+  for (const glm::dvec3& p : points) pointSlices.push_back(sliceOf(p.z));
+  sortSlices(borders, pointSlices, options.successors, space);
+  return space;
+}
+
+}  // namespace halfshadow::techniques

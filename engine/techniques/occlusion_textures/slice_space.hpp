@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// The space in which casters are cut into slices parallel to the light: projection, slice borders, and the
+/// part of a slice that a receiver's light frustum covers. Pure data, double precision.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "base/error.hpp"
+#include "planner/light_fit.hpp"
+
+namespace halfshadow::techniques {
+
+enum class SliceProjection {
+  perspective,  ///< from a point on the light's axis
+  orthographic  ///< along the light's axis
+};
+/// Centre of a perspective projection.
+enum class SliceCenter {
+  light,  ///< the light's centre
+  behind  ///< behind it, where the pyramid through the light's outline just holds the casters
+};
+enum class SliceSuccessors { dropped, kept };
+struct SliceOptions {
+  int slices = 4;
+  int mapSize = 256;
+  int borderTexels = 3;  ///< kept empty, so that clamped fetches outside read "nothing there"
+  SliceProjection projection = SliceProjection::perspective;
+  SliceCenter center = SliceCenter::light;
+  /// Also keep the slice behind an occupied one, which casters are projected on to close leaks.
+  SliceSuccessors successors = SliceSuccessors::dropped;
+};
+
+/// A slice; borders in slice units.
+struct Slice {
+  double low = 0.0, high = 1.0;
+  double casterLow = 0.0;  ///< casters from here on are projected on it
+};
+
+/// Slice units s run from 0 (just nearer than the nearest caster) to 1 (just beyond the farthest), affine in
+/// 1/distance from the centre of projection (perspective) or in distance (orthographic): place and size of
+/// the light's frustum on the plane s, as seen in the map, are then affine in s too. Slices have equal
+/// thickness in world units: measured against equal steps of s, objects come out better (penumbra RMSE on
+/// casters .121 against .181 at four slices) and the ground the same.
+struct SliceSpace {
+  /// world -> (x, y, n, z): x/z and y/z times ratio(s), plus center, is the place in the map [0, 1]² where
+  /// the line to the light's centre meets plane s; n / (z·divisorScale + divisorConstant) is the position's
+  /// own s. All four are scaled so that z = 1 at the farthest caster.
+  glm::dmat4 mapFromWorld{1.0};
+  glm::dmat4 clipFromWorld{1.0};  ///< of the slicing passes; depth grows with s
+  glm::dvec3 originWorld{0.0};    ///< centre of projection (orthographic: the light's centre)
+  glm::dvec2 center{0.5};
+  double divisorScale = 1.0, divisorConstant = 0.0;
+  double ratio0 = 1.0, ratio1 = 0.0;  ///< ratio(s) = ratio0 + s ratio1
+  /// Longer side of the light's frustum on plane s, texels: width0 + s width1 - widthScale ratio(s) / z.
+  double width0 = 0.0, width1 = 0.0, widthScale = 0.0;
+  glm::dvec2 shape{1.0};        ///< its two sides, the longer one 1
+  double offsetDistance = 0.0;  ///< of the centre of projection behind the light, world units
+  double widestTexels = 0.0;    ///< largest side on any slice, for receivers however far
+  int mapSize = 256;
+  std::vector<Slice> slices;     ///< those that hold casters, nearest first
+  std::vector<int> emptySlices;  ///< positions of the others, from 0
+};
+
+/// `fit` is the frame's fit (its near distance cuts casters at the light's plane). Errors: invalidArgument
+/// (slices outside 4-16, map size outside 64-1024, no caster in front of the light).
+Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
+                                  const SliceOptions& options);
+
+}  // namespace halfshadow::techniques

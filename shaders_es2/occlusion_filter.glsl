@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Means of an occlusion texture's channels over a rectangle of the map: the light's frustum. Channels are named by
+// column and row: red (0, 0), green (1, 0), blue (0, 1), alpha (1, 1); pairs by their row.
+// HS_FILTER_NBUFFER and HS_FILTER_MIPMAP: x: map side in texels, yz: 1 / atlas size, w: last level;
+// HS_FILTER_SAT: x: map side in texels, y: 1 / side of the sums' texture, z: 256 / count of a full texel.
+uniform HS_HIGHP vec4 u_occlusionLayout;
+// xy: sides of the kernel over its longer one; HS_BOXES > 1: z: side of one of the boxes that make up the kernel
+uniform HS_HIGHP vec4 u_kernelShape;
+
+#if defined(HS_FILTER_NBUFFER)
+// Levels 0 to 3 at full resolution in a square of four, then samples at an eighth of the kernel's side in a
+// column; five samples of margin around each.
+HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
+  float coarse = max(level - 3.0, 0.0);
+  HS_HIGHP float perSample = exp2(-coarse);
+  HS_HIGHP float side = u_occlusionLayout.x * perSample + 11.0;
+  HS_HIGHP float fullSide = u_occlusionLayout.x + 11.0;
+  float row = step(1.5, level);
+  HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * fullSide
+                                     : vec2(2.0 * fullSide, u_occlusionLayout.x * (1.0 - 2.0 * perSample) + 11.0 * (coarse - 1.0));
+  // Level 0 lies at texel centres, the means of the others where their texels meet.
+  HS_HIGHP vec2 local = (level < 0.5 ? texel - 0.5 : texel * perSample) + 5.5;
+  return (origin + clamp(local, 0.5, side - 0.5)) * u_occlusionLayout.yz;
+}
+// x: the largest kernel not wider than `width`, y: the share of the next one, twice as wide, for which the mix
+// has the second moment of the kernel wanted.
+HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
+  HS_HIGHP float wanted = clamp(width, 1.0, exp2(u_occlusionLayout.w));
+  float lower = min(floor(log2(wanted)), u_occlusionLayout.w - 1.0);
+  HS_HIGHP float ratio = wanted * exp2(-lower);
+  return vec2(lower, (ratio * ratio - 1.0) * (1.0 / 3.0));
+}
+#elif defined(HS_FILTER_MIPMAP)
+HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
+  HS_HIGHP float perSample = exp2(-level);
+  HS_HIGHP float side = u_occlusionLayout.x * perSample;
+  HS_HIGHP vec2 origin = level < 0.5 ? vec2(1.0)
+                                     : vec2(u_occlusionLayout.x + 3.0, 1.0 + u_occlusionLayout.x - 2.0 * side + 2.0 * (level - 1.0));
+  return (origin + clamp(texel * perSample, -0.5, side + 0.5)) * u_occlusionLayout.yz;
+}
+// A linear fetch of level l weighs a tent of 2^(l+1) texels, as wide as a box of sqrt(3) 2^l.
+HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
+  float level = clamp(log2(max(width * (1.0 / 1.7320508), 1.0)), 0.0, u_occlusionLayout.w);
+  float lower = min(floor(level), u_occlusionLayout.w - 1.0);
+  return vec2(lower, level - lower);
+}
+#endif
+
+#ifdef HS_FILTER_SAT
+// Sum over all texels before a corner of the texel grid, as bytes.
+HS_HIGHP vec3 hs_sumBefore(HS_HIGHP sampler2D sums, HS_HIGHP vec2 corner, vec2 tile) {
+  HS_COUNT(1);
+  HS_HIGHP vec2 last = clamp(corner, 0.0, u_occlusionLayout.x) - 0.5;
+  float inside = step(0.0, min(last.x, last.y));
+  HS_HIGHP vec2 place = max(last, 0.5) + tile * u_occlusionLayout.x;
+  return floor(texture2D(sums, place * u_occlusionLayout.y).rgb * 255.0 + 0.5) * inside;
+}
+#ifdef HS_SAT_SMOOTH
+// The integral of the texels over everything before any point: exact between texels too, for four fetches.
+HS_HIGHP vec3 hs_corner(HS_HIGHP sampler2D sums, HS_HIGHP vec2 at, vec2 tile) {
+  HS_HIGHP vec2 inside = clamp(at, 0.0, u_occlusionLayout.x);
+  HS_HIGHP vec2 low = floor(inside);
+  HS_HIGHP vec2 part = inside - low;
+  return mix(mix(hs_sumBefore(sums, low, tile), hs_sumBefore(sums, low + vec2(1.0, 0.0), tile), part.x),
+             mix(hs_sumBefore(sums, low + vec2(0.0, 1.0), tile), hs_sumBefore(sums, low + 1.0, tile), part.x), part.y);
+}
+#else
+#define hs_corner hs_sumBefore
+#endif
+float hs_boxMean(HS_HIGHP sampler2D sums, HS_HIGHP vec2 texel, HS_HIGHP float width, vec2 tile) {
+  HS_HIGHP vec2 reach = 0.5 * max(width * u_kernelShape.xy, 1.0);
+#ifdef HS_SAT_SMOOTH
+  HS_HIGHP vec2 low = texel - reach;
+  HS_HIGHP vec2 high = texel + reach;
+#else
+  // Borders on the texel grid: four fetches.
+  HS_HIGHP vec2 low = floor(texel - reach + 0.5);
+  HS_HIGHP vec2 high = max(floor(texel + reach + 0.5), low + 1.0);
+#endif
+  HS_HIGHP vec3 bytes = hs_corner(sums, high, tile) - hs_corner(sums, vec2(low.x, high.y), tile) -
+                        hs_corner(sums, vec2(high.x, low.y), tile) + hs_corner(sums, low, tile);
+  // High bytes first: their differences are small, so that even mediump loses nothing to cancellation. The
+  // count is taken in units of 256, since mediump ends at 65504.
+  HS_HIGHP float count = (bytes.x * 256.0 + bytes.y) + bytes.z * (1.0 / 256.0);
+  HS_HIGHP vec2 side = high - low;
+  return clamp(count * u_occlusionLayout.z / side.x / side.y, 0.0, 1.0);
+}
+float hs_channelMean(HS_HIGHP sampler2D sums, vec2 channel, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  return hs_boxMean(sums, texel, width, channel);
+}
+vec2 hs_pairMean(HS_HIGHP sampler2D sums, float pair, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  return vec2(hs_boxMean(sums, texel, width, vec2(0.0, pair)), hs_boxMean(sums, texel, width, vec2(1.0, pair)));
+}
+#else
+vec4 hs_squareMean(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  HS_HIGHP vec2 level = hs_levels(width);
+  HS_COUNT(2);
+  return mix(texture2D(levels, hs_levelPlace(texel, level.x)), texture2D(levels, hs_levelPlace(texel, level.x + 1.0)), level.y);
+}
+#if HS_BOXES > 1
+// An elongated light: squares side by side.
+vec4 hs_levelFetch(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  HS_HIGHP vec2 stride = step(u_kernelShape.yx, u_kernelShape.xy) * (width / float(HS_BOXES));
+  HS_HIGHP vec2 place = texel - stride * (0.5 * float(HS_BOXES - 1));
+  vec4 sum = vec4(0.0);
+  for (int i = 0; i < HS_BOXES; ++i) {
+    sum += hs_squareMean(levels, place, width * u_kernelShape.z);
+    place += stride;
+  }
+  return sum * (1.0 / float(HS_BOXES));
+}
+#else
+#define hs_levelFetch hs_squareMean
+#endif
+float hs_channelMean(HS_HIGHP sampler2D levels, vec2 channel, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  vec4 mean = hs_levelFetch(levels, texel, width);
+  vec2 columns = mix(mean.rb, mean.ga, channel.x);
+  return mix(columns.x, columns.y, channel.y);
+}
+vec2 hs_pairMean(HS_HIGHP sampler2D levels, float pair, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  vec4 mean = hs_levelFetch(levels, texel, width);
+  return mix(mean.rg, mean.ba, pair);
+}
+#endif
