@@ -112,6 +112,18 @@ class ShadowWidth final : public Technique {
     auto map = declareSignedWidth(frame, *depth);
     if (!map) return map.error();
     shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+    // Depths at the silhouettes have 8 bits. Where a caster stands so near the light that a step of them is
+    // several texels of penumbra, the exact depth of one tap serves all receivers better.
+    const MapSpace& space = depth->space;
+    const double texelsPerStep = std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
+                                 (space.farthestCasterDepth - space.nearestCasterDepth) / 255.0;
+    if (texelsPerStep > 4.0) {
+      shading.selfReceivers = ReceiverShading::SelfReceivers::all;
+      frame.graph.noteSkipped(
+          "light " + std::to_string(frame.lightIndex) + " outer penumbrae",
+          "wide-depth-range: casters are both very near the light and far from it; widths are "
+          "taken from one exact depth");
+    }
     addSignedWidth(shading, *depth, *map);
     if (frame.settings.choice("shadow-width.corners") == "on") {
       shading.defines.push_back("HS_CORNERS");

@@ -173,9 +173,10 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   const MapSpace& space = depth.space;
   SignedWidthMap map;
   map.depthTexelsPerTexel = depthTexelsPerWidthTexel(space);
-  // Distances reach kLongestOffset texels: the widest kernel must fit.
-  map.depthTexelsPerTexel *=
-      std::max(1.0, (0.5 * glm::length(widestKernel(frame, space, map)) + 1.0) / (kLongestOffset - 1.0));
+  // Distances reach kLongestOffset texels: the widest kernel should fit. Where a caster stands next to the
+  // light that would cost all others their resolution, so its penumbra is cut instead.
+  map.depthTexelsPerTexel *= std::clamp(
+      (0.5 * glm::length(widestKernel(frame, space, map)) + 1.0) / (kLongestOffset - 1.0), 1.0, 2.0);
   // The corner of the widest kernel; one texel more, since the map is interpolated.
   const glm::dvec2 widest = widestKernel(frame, space, map);
   const double wanted = 0.5 * glm::length(widest) + 1.0;
