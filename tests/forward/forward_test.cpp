@@ -155,7 +155,7 @@ TEST_P(Forward, isTheImageOfTheScreenSpaceRoute) {
 }
 INSTANTIATE_TEST_SUITE_P(Techniques, Forward,
                          testing::Values("hard", "pcf", "pcf-masked", "pcf-quantized", "pcss", "pcss-mip", "vsm",
-                                         "occlusion-textures"));
+                                         "occlusion-textures", "shadow-width"));
 
 class ForwardErrors : public Forward {};
 TEST_F(ForwardErrors, nameTheFix) {

@@ -13,13 +13,13 @@ using framegraph::ResourceDesc;
 
 /// Writes of the depth pass; the last sampled one is the map.
 std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string& name, int size, DepthStorage storage,
-                                     framegraph::Lifetime lifetime, framegraph::ResourceId& map) {
+                                     framegraph::Lifetime lifetime, float emptyDepth, framegraph::ResourceId& map) {
   const bool isTexture = storage == DepthStorage::texture24 || storage == DepthStorage::texture16;
   ResourceDesc desc{.name = name, .width = size, .height = size, .lifetime = lifetime};
   if (isTexture) {
     desc.format = storage == DepthStorage::texture24 ? Format::depth24 : Format::depth16;
     map = graph.addResource(desc);
-    return {{.resource = map, .point = AttachmentPoint::depth}};
+    return {{.resource = map, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
   }
   map = graph.addResource(desc);
   const auto depth = graph.addResource({.name = name + " depth test",
@@ -27,16 +27,19 @@ std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string
                                         .height = size,
                                         .format = Format::depth24,
                                         .storage = framegraph::Storage::renderbuffer});
-  return {{.resource = map, .point = AttachmentPoint::color, .clear = {.color = {1, 1, 1, 1}}},
-          {.resource = depth, .point = AttachmentPoint::depth}};
+  return {{.resource = map, .point = AttachmentPoint::color, .clear = {.color = {emptyDepth, emptyDepth, emptyDepth, 1}}},
+          {.resource = depth, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
 }
 
-void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, std::span<const DrawItem> items) {
-  gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
+void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, MapContent content,
+               std::span<const DrawItem> items) {
+  const bool farthest = content == MapContent::castersFarthest;
+  gl::DrawState state{.depth = {.test = farthest ? gl::Compare::greater : gl::Compare::less, .write = true}};
   for (const DrawItem& item : items) {
     // The map looks along +z of a right-handed space, so windings appear turned round.
     const gl::Cull hidden = hiddenFaces(item, space.originWorld);
-    state.cull = hidden == gl::Cull::back ? gl::Cull::front : hidden == gl::Cull::front ? gl::Cull::back : hidden;
+    const gl::Cull turned = hidden == gl::Cull::back ? gl::Cull::front : gl::Cull::back;
+    state.cull = hidden == gl::Cull::none ? hidden : farthest ? hidden : turned;
     program.set(encoder.context(), "u_mapClipFromObject", glm::mat4(space.mapClipFromWorld * item.worldFromObject));
     item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
   }
@@ -49,10 +52,11 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   depth.storage = depthStorageFor(frame.capabilities);
   depth.space = makeMapSpace(frame.fit, depth.storage);
   const bool all = content == MapContent::castersAndReceivers;
+  const bool farthest = content == MapContent::castersFarthest;
   const bool keyed = frame.mapLifetime == framegraph::Lifetime::persistent;
   depth.contentKey = !keyed ? 0 : planner::combineKeys(all ? frame.sceneKey : frame.contentKey,
-                                          static_cast<std::uint64_t>(depth.storage) * 2 + (all ? 1 : 0));
-  const std::string name = "light " + std::to_string(frame.lightIndex) + (all ? " depth with receivers" : " depth") + frame.mapName;
+                                          static_cast<std::uint64_t>(depth.storage) * 4 + static_cast<std::uint64_t>(content));
+  const std::string name = "light " + std::to_string(frame.lightIndex) + (all ? " depth with receivers" : farthest ? " farthest depth" : " depth") + frame.mapName;
 
   const gl::Texture* ramp = nullptr;
   if (depth.storage == DepthStorage::packed16) {
@@ -64,11 +68,11 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   if (!program) return program.error();
 
   framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::light};
-  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime, depth.map);
+  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime, farthest ? 0.0f : 1.0f, depth.map);
   pass.contentKey = depth.contentKey;
   std::vector<DrawItem> items(frame.casters.begin(), frame.casters.end());
   if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
-  pass.execute = [program = *program, ramp, space = depth.space, items = std::move(items)](framegraph::PassContext& context) {
+  pass.execute = [program = *program, ramp, space = depth.space, content, items = std::move(items)](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
     program->set(encoder.context(), "u_nearDistance", 1.0f);
@@ -76,7 +80,7 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
       const gl::TextureBinding binding{program->samplerUnit("u_byteRamp"), ramp};
       encoder.bindTextures({&binding, 1});
     }
-    drawItems(encoder, *program, space, items);
+    drawItems(encoder, *program, space, content, items);
   };
   frame.graph.addPass(std::move(pass));
   return depth;

@@ -39,6 +39,7 @@ MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage);
 
 enum class MapContent {
   casters,             ///< all that techniques need
+  castersFarthest,     ///< back faces of casters, the farthest; empty texels are at depth 0
   castersAndReceivers  ///< what the papers' scenes hold; receivers then shadow themselves
 };
 

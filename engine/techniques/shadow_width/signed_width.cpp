@@ -1,0 +1,289 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/shadow_width/signed_width.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/frame_planner.hpp"
+#include "techniques/light_blocks/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Offsets are stored as whole bytes about 128.
+constexpr double kLongestOffset = 125.0;
+
+glm::vec4 layoutUniform(const SignedWidthMap& map) {
+  return {map.width, map.height, 1.0 / map.width, 1.0 / map.height};
+}
+
+glm::vec4 placeUniform(const SignedWidthMap& map) {
+  return {1.0 / map.depthTexelsPerTexel.x, 1.0 / map.depthTexelsPerTexel.y, map.margin, 0.0};
+}
+
+glm::vec4 boxUniform(const SignedWidthMap& map) {
+  const int rows = (map.boxes.tiles + 1) / 2;
+  return {0.5 / map.width, 1.0 / (rows * map.height), map.boxes.tiles, 0};
+}
+
+/// Depths of casters to 0 … 1, and the depth between them and empty texels.
+glm::vec4 casterRange(const MapSpace& space) {
+  const double unit = space.depthUnit;
+  const double range = std::max((space.farthestCasterDepth - space.nearestCasterDepth) * unit, 1e-6);
+  return {space.nearestCasterDepth * unit, 1.0 / range, 0.5 * (space.farthestCasterDepth + 1.0) * unit,
+          range};
+}
+
+/// The widest kernel of a receiver inside the map, in texels of the width map.
+glm::dvec2 widestKernel(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map) {
+  const glm::dvec2 kernel = space.kernelTexelsPerDepth;
+  return widestPenumbraTexels(frame, space) / std::max(kernel.x, kernel.y) * kernel / map.depthTexelsPerTexel;
+}
+
+std::uint64_t shapeKey(const SignedWidthMap& map) {
+  const std::uint64_t sides =
+      static_cast<std::uint64_t>(map.width) * 65536 + static_cast<std::uint64_t>(map.height);
+  return planner::combineKeys(sides, static_cast<std::uint64_t>(map.reachTexels));
+}
+
+struct Source {
+  gl::UniformKey sampler;
+  framegraph::ResourceId resource;
+};
+struct Step {
+  const char* name;
+  const char* file;
+  std::vector<std::string> defines;
+  std::vector<Source> sources;
+  framegraph::ResourceId target;
+  int strideTexels = 0;
+  double boxTexels = 0.0;
+  std::uint64_t contentKey = 0;
+};
+
+Status addStep(const LightFrame& frame, const LightDepth& depth, const SignedWidthMap& map, Step step) {
+  auto program = frame.programs.get({"fullscreen.vert", step.file, step.defines});
+  if (!program) return program.error();
+  framegraph::PassDesc pass{.name = step.name, .stage = framegraph::PassStage::mask};
+  pass.name = "light " + std::to_string(frame.lightIndex) + " " + step.name;
+  if (step.strideTexels > 0) pass.name += " " + std::to_string(step.strideTexels);
+  for (const Source& source : step.sources) pass.reads.push_back(source.resource);
+  pass.writes = {{.resource = step.target, .initial = framegraph::InitialContent::dontCare}};
+  pass.contentKey = step.contentKey;
+  const float mapSize = static_cast<float>(depth.space.mapSize);
+  pass.execute =
+      [program = *program, sources = std::move(step.sources), boxes = boxUniform(map),
+       layout = layoutUniform(map), mapSize, casters = casterRange(depth.space), place = placeUniform(map),
+       flood = glm::vec4(step.strideTexels, 0, 0, 0), box = glm::vec4(step.boxTexels, 0, 0, 0),
+       range = glm::vec4(map.reachTexels, map.kneeTexels, 0, 0)](framegraph::PassContext& context) {
+        gl::Encoder& encoder = context.encoder;
+        encoder.useProgram(*program);
+        program->set(encoder.context(), "u_sourceSize", glm::vec4(mapSize, 1.0f / mapSize, 0, 0));
+        program->set(encoder.context(), "u_widthLayout", layout);
+        program->set(encoder.context(), "u_widthPlace", place);
+        program->set(encoder.context(), "u_casterRange", casters);
+        program->set(encoder.context(), "u_flood", flood);
+        program->set(encoder.context(), "u_box", box);
+        program->set(encoder.context(), "u_boxLayout", boxes);
+        program->set(encoder.context(), "u_widthRange", range);
+        std::vector<gl::TextureBinding> bindings;
+        for (const Source& source : sources) {
+          bindings.push_back({program->samplerUnit(source.sampler), &context.texture(source.resource)});
+        }
+        encoder.bindTextures(bindings);
+        encoder.drawFullscreen({});
+      };
+  frame.graph.addPass(std::move(pass));
+  return {};
+}
+}  // namespace
+
+glm::dvec2 depthTexelsPerWidthTexel(const MapSpace& space) {
+  // At most four a side, which resolves edges to a fraction of a texel by coverage and keeps the passes
+  // cheap, unless the shorter side would then be finer than the depth map itself.
+  const double longest = space.mapSize >= 256 ? 4.0 : space.mapSize >= 128 ? 2.0 : 1.0;
+  const glm::dvec2 kernel = glm::max(space.kernelTexelsPerDepth, glm::dvec2(1e-9));
+  const double ratio = std::clamp(kernel.x / kernel.y, 1.0 / 16.0, 16.0);
+  const glm::dvec2 shape = ratio > 1.0 ? glm::dvec2(1.0, 1.0 / ratio) : glm::dvec2(ratio, 1.0);
+  return shape * std::max(longest, 1.0 / std::min(shape.x, shape.y));
+}
+
+/// Boxes up to the widest penumbra.
+static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const LightDepth& depth,
+                                            const SignedWidthMap& map) {
+  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " width ";
+  WidthBoxes boxes;
+  const glm::dvec2 kernel = widestKernel(frame, depth.space, map);
+  const double widest = std::sqrt(kernel.x * kernel.y);
+  while (boxes.tiles < 6 && (2 << boxes.tiles) < widest) ++boxes.tiles;
+  const int rows = (boxes.tiles + 1) / 2;
+  std::vector<framegraph::ResourceId> levels = {map.coverage};
+  for (int level = 0; level <= boxes.tiles; ++level) {
+    const auto next = frame.graph.addResource(
+        {.name = prefix + "boxes " + std::to_string(2 << level), .width = map.width, .height = map.height});
+    // To and fro, so that no level's boxes stand far beside their texels.
+    const double neighbour = (level % 2 == 0 ? 1.0 : -1.0) * std::exp2(level);
+    if (Status s = addStep(frame, depth, map,
+                           {.name = "width boxes",
+                            .file = "width_box.frag",
+                            .sources = {{"u_coverage", levels.back()}},
+                            .target = next,
+                            .strideTexels = 2 << level,
+                            .boxTexels = neighbour});
+        !s) {
+      return s.error();
+    }
+    levels.push_back(next);
+  }
+  auto program = frame.programs.get({"fullscreen.vert", "width_tile.frag", {}});
+  if (!program) return program.error();
+  boxes.atlas = frame.graph.addResource({.name = prefix + "box atlas",
+                                         .width = 2 * map.width,
+                                         .height = rows * map.height,
+                                         .lifetime = framegraph::Lifetime::persistent,
+                                         .filter = framegraph::Filter::linear});
+  framegraph::PassDesc pass{.name = prefix + "box atlas", .stage = framegraph::PassStage::mask};
+  pass.reads.assign(levels.begin() + 1, levels.end());
+  pass.writes = {{.resource = boxes.atlas}};
+  pass.contentKey =
+      planner::combineKeys(depth.contentKey, shapeKey(map) + static_cast<std::uint64_t>(boxes.tiles));
+  pass.execute = [program = *program, levels, layout = layoutUniform(map), width = map.width,
+                  height = map.height, tiles = boxes.tiles](framegraph::PassContext& context) {
+    gl::Encoder& encoder = context.encoder;
+    encoder.useProgram(*program);
+    program->set(encoder.context(), "u_widthLayout", layout);
+    for (int tile = 0; tile < tiles; ++tile) {
+      const std::size_t level = static_cast<std::size_t>(tile) + 1;
+      const float between =
+          static_cast<float>((level % 2 == 0 ? -1.0 : 1.0) * std::exp2(static_cast<double>(level) - 1.0));
+      program->set(encoder.context(), "u_box", glm::vec4(between, 0, 0, 0));
+      const gl::TextureBinding bindings[] = {
+          {program->samplerUnit("u_smallerBoxes"), &context.texture(levels[level])},
+          {program->samplerUnit("u_largerBoxes"), &context.texture(levels[level + 1])}};
+      encoder.bindTextures(bindings);
+      encoder.setViewport({(tile % 2) * width, (tile / 2) * height, width, height});
+      encoder.drawFullscreen({});
+    }
+  };
+  frame.graph.addPass(std::move(pass));
+  return boxes;
+}
+
+Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDepth& depth) {
+  const MapSpace& space = depth.space;
+  SignedWidthMap map;
+  map.depthTexelsPerTexel = depthTexelsPerWidthTexel(space);
+  // Distances reach kLongestOffset texels: the widest kernel should fit. Where a caster stands next to the
+  // light that would cost all others their resolution, so its penumbra is cut instead.
+  map.depthTexelsPerTexel *= std::clamp(
+      (0.5 * glm::length(widestKernel(frame, space, map)) + 1.0) / (kLongestOffset - 1.0), 1.0, 2.0);
+  // The corner of the widest kernel; one texel more, since the map is interpolated.
+  const glm::dvec2 widest = widestKernel(frame, space, map);
+  const double wanted = 0.5 * glm::length(widest) + 1.0;
+  // Steps of eight texels: a receiver that moves a little keeps the map's content.
+  map.reachTexels = std::min(8.0 * std::ceil(wanted / 8.0), kLongestOffset);
+  map.kneeTexels = 0.25 * map.reachTexels;
+  const glm::dvec2 inner = glm::ceil(glm::dvec2(space.mapSize) / map.depthTexelsPerTexel);
+  // Twice in each direction is the box atlas.
+  const double room = (0.5 * frame.capabilities.limits.textureSize - std::max(inner.x, inner.y)) / 2.0;
+  map.margin = static_cast<int>(std::max(std::min(map.reachTexels, std::floor(room)), 0.0));
+  map.width = static_cast<int>(inner.x) + 2 * map.margin;
+  map.height = static_cast<int>(inner.y) + 2 * map.margin;
+
+  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " width ";
+  const auto addTarget = [&](const std::string& name, framegraph::Lifetime lifetime,
+                             framegraph::Filter filter) {
+    return frame.graph.addResource({.name = prefix + name,
+                                    .width = map.width,
+                                    .height = map.height,
+                                    .lifetime = lifetime,
+                                    .filter = filter});
+  };
+  using framegraph::Filter;
+  using framegraph::Lifetime;
+  const auto coverage = addTarget("coverage", Lifetime::transient, Filter::nearest);
+  auto defines = depthDefines(depth.storage);
+  const glm::ivec2 samples = glm::min(glm::ivec2(glm::ceil(map.depthTexelsPerTexel - 1e-6)), glm::ivec2(16));
+  defines.push_back("HS_SAMPLES_S " + std::to_string(samples.x));
+  defines.push_back("HS_SAMPLES_T " + std::to_string(samples.y));
+  if (Status s = addStep(frame, depth, map,
+                         {.name = "width coverage",
+                          .file = "width_coverage.frag",
+                          .defines = defines,
+                          .sources = {{"u_depthMap", depth.map}},
+                          .target = coverage});
+      !s) {
+    return s.error();
+  }
+  map.coverage = coverage;
+  auto offsets = addTarget("seeds", Lifetime::transient, Filter::nearest);
+  if (Status s = addStep(frame, depth, map,
+                         {.name = "width seeds",
+                          .file = "width_seed.frag",
+                          .sources = {{"u_coverage", coverage}},
+                          .target = offsets});
+      !s) {
+    return s.error();
+  }
+  int stride = 1;
+  while (2 * stride < std::min<double>(kLongestOffset, map.reachTexels)) stride *= 2;
+  for (; stride >= 1; stride /= 2) {
+    const auto next = addTarget("offsets " + std::to_string(stride), Lifetime::transient, Filter::nearest);
+    if (Status s = addStep(frame, depth, map,
+                           {.name = "width flood",
+                            .file = "width_flood.frag",
+                            .sources = {{"u_offsets", offsets}},
+                            .target = next,
+                            .strideTexels = stride});
+        !s) {
+      return s.error();
+    }
+    offsets = next;
+  }
+  map.map = addTarget("map", Lifetime::persistent, Filter::linear);
+  const std::uint64_t shape = shapeKey(map);
+  auto boxes = declareWidthBoxes(frame, depth, map);
+  if (!boxes) return boxes.error();
+  map.boxes = *boxes;
+  if (Status s =
+          addStep(frame, depth, map,
+                  {.name = "width map",
+                   .file = "width_finish.frag",
+                   .sources = {{"u_offsets", offsets}, {"u_coverage", coverage}, {"u_boxes", boxes->atlas}},
+                   .target = map.map,
+                   .contentKey = planner::combineKeys(depth.contentKey, shape)});
+      !s) {
+    return s.error();
+  }
+  return map;
+}
+
+void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map) {
+  shading.textures.push_back({.sampler = "u_boxes", .resource = map.boxes.atlas});
+  shading.setUniforms = [layout = boxUniform(map), inner = std::move(shading.setUniforms)](
+                            gl::Program& program, gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_boxLayout", layout);
+  };
+}
+
+void addSignedWidth(ReceiverShading& shading, const LightDepth& depth, const SignedWidthMap& map) {
+  shading.textures.push_back({.sampler = "u_widthMap", .resource = map.map});
+  const MapSpace& space = depth.space;
+  const glm::dvec2 kernel = space.kernelTexelsPerDepth / space.depthUnit / map.depthTexelsPerTexel;
+  const glm::vec4 range(map.reachTexels, map.kneeTexels, kernel.x, kernel.y);
+  const glm::vec4 casters = casterRange(space);
+  // Narrower than a depth texel, a penumbra is an edge.
+  const glm::vec4 casterDepth(casters.x, casters.w,
+                              1.0 / std::max(map.depthTexelsPerTexel.x, map.depthTexelsPerTexel.y), 0);
+  shading.setUniforms = [layout = layoutUniform(map), place = placeUniform(map), range, casterDepth,
+                         inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_widthLayout", layout);
+    program.set(context, "u_widthPlace", place);
+    program.set(context, "u_widthRange", range);
+    program.set(context, "u_casterDepth", casterDepth);
+  };
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Penumbrae from the distance to the nearest silhouette. HS_PAPER: inside the hard shadow only, by the paper's
+// attenuation of shadow depth and shadow width; else on both sides, by the exact profile of a square light.
+// Based on: Kirsch, Doellner, "Real-Time Soft Shadows Using a Single Light Sample", 2003, section 3; both sides of
+// the silhouette and the widths from the light's size: Halfshadow.
+#include "tap_count.glsl"
+#include "depth_storage.glsl"
+#include "receiver_inputs.glsl"
+#include "shadow_tap.glsl"
+
+#ifdef HS_POINT_LIGHT
+float hs_visibility() { return hs_hardTap(); }
+#elif defined(HS_PAPER)
+uniform HS_HIGHP sampler2D u_widthMap;
+uniform HS_HIGHP vec4 u_attenuation;  // x: near distance / distance at shadow depth 1, y: c_scale, z: 1 + c_bias, w: depth units
+#ifdef HS_ATTENUATION_TEXTURE
+uniform HS_HIGHP sampler2D u_attenuationMap;
+#endif
+
+float hs_visibility() {
+  HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
+  HS_HIGHP vec4 stored = texture2D(u_depthMap, center * u_map.y);
+  HS_COUNT(1);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float gap = hs_gap(stored, hs_receiver);
+  HS_HIGHP float shadowWidth = texture2D(u_widthMap, hs_texel * u_map.y).r;
+  HS_COUNT(1);
+  if (gap >= min(dot(hs_gradient, center - hs_texel), 0.0) - u_bias.x - u_bias.y * slope) return 1.0;
+  // Distances along the light's axis: near / (1 - d), with both d in depth units.
+  HS_HIGHP float receiverShare = 1.0 - hs_receiverValue / u_attenuation.w;
+  HS_HIGHP float blockerShare = receiverShare - gap / u_attenuation.w;
+  HS_HIGHP float shadowDepth = u_attenuation.x * (-gap / u_attenuation.w) / (receiverShare * blockerShare);
+#ifdef HS_ATTENUATION_TEXTURE
+  HS_COUNT(1);
+  return texture2D(u_attenuationMap, (clamp(vec2(shadowDepth, shadowWidth), 0.0, 1.0) * 255.0 + 0.5) * (1.0 / 256.0)).r;
+#else
+  return clamp(u_attenuation.z - u_attenuation.y * shadowWidth / max(shadowDepth, 1e-4), 0.0, 1.0);
+#endif
+}
+#else
+#ifdef HS_CORNERS
+#include "width_boxes.glsl"
+#endif
+#include "width_distance.glsl"
+uniform HS_HIGHP sampler2D u_widthMap;
+#ifndef HS_CORNERS
+uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
+#endif
+uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels of the width map per depth texel, z: margin in texels
+uniform HS_HIGHP vec4 u_widthRange;   // x: largest distance, y: knee of the storage, zw: kernel in texels per unit of depth
+uniform HS_HIGHP vec4 u_casterDepth;  // x: depth of the nearest caster, y: depth range of casters, z: 1 / depth texels per texel
+
+// Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a
+// signed distance, whose normal has the absolute components `normal`.
+HS_HIGHP float hs_halfPlane(HS_HIGHP float signedDistance, HS_HIGHP vec2 normal, HS_HIGHP vec2 widths) {
+  HS_HIGHP vec2 reach = normal * widths;
+  HS_HIGHP float longer = max(max(reach.x, reach.y), 1e-3);
+  HS_HIGHP float ratio = max(min(reach.x, reach.y) / longer, 1e-3);
+  HS_HIGHP float size = abs(signedDistance) / longer;
+  HS_HIGHP float tail = max(0.5 + 0.5 * ratio - size, 0.0);
+  HS_HIGHP float share = size <= 0.5 - 0.5 * ratio ? 0.5 + size : 1.0 - tail * tail / (2.0 * ratio);
+  return signedDistance < 0.0 ? 1.0 - share : share;
+}
+
+// Share of the unit square outside a disc about its centre: the disc that reaches the nearest silhouette is all lit
+// or all shadowed. Exact up to 0.5; then the four corners, as squares of what is left of their diagonals.
+HS_HIGHP float hs_discOutside(HS_HIGHP float radius) {
+  HS_HIGHP float inscribed = min(radius, 0.5);
+  HS_HIGHP float corner = clamp((0.70711 - radius) * (1.0 / 0.20711), 0.0, 1.0);
+  return radius < 0.5 ? 1.0 - 3.14159265 * inscribed * inscribed : 0.2146 * corner * corner;
+}
+
+float hs_visibility() {
+  HS_HIGHP vec2 texel = hs_texel * u_widthPlace.xy + u_widthPlace.z;
+  HS_HIGHP vec4 stored = texture2D(u_widthMap, texel * u_widthLayout.zw);
+  HS_COUNT(1);
+  HS_HIGHP float signedTexels = hs_unpackDistance(stored.r, u_widthRange.xy);
+  HS_HIGHP vec2 normal = vec2(sqrt(max(1.0 - stored.g * stored.g, 0.0)), stored.g);
+  HS_HIGHP float gap = hs_receiverValue - u_casterDepth.x - u_casterDepth.y * stored.b;
+// A host's program serves all of its receivers, casting or not.
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float margin = u_bias.x + u_bias.z * slope + u_casterDepth.y * (1.0 / 255.0);
+  if (hs_receiverValue <= u_casterDepth.x + u_casterDepth.y * stored.a + margin) {
+    // The receiver may be the caster itself: only the exact depth knows, and what it finds lit is.
+    HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
+    HS_HIGHP float exactGap = hs_gap(texture2D(u_depthMap, center * u_map.y), hs_receiver);
+    HS_COUNT(1);
+    HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
+    if (exactGap >= min(dot(hs_gradient, center - hs_texel), 0.0) - bias) return 1.0;
+    HS_HIGHP vec2 widths = u_widthRange.zw * max(gap, -exactGap);
+    return 1.0 - hs_halfPlane(max(signedTexels, 0.0), normal, max(widths, u_casterDepth.z));
+  }
+#endif
+#ifdef HS_CORNERS
+  // Straight edges are the profile's; what the boxes hold more or less than a straight edge would is corners,
+  // thin casters and casters beside each other.
+  HS_HIGHP vec2 widths = u_widthRange.zw * max(gap, 0.0);
+  HS_HIGHP float level = 0.5 * log2(max(widths.x * widths.y - 2.0, 4.0));
+  HS_HIGHP float lower = clamp(floor(level), 1.0, u_boxLayout.z);
+  HS_HIGHP float upper = clamp(level - lower, 0.0, 1.0);
+  HS_HIGHP vec4 boxes = hs_boxes(texel, lower);
+  // The silhouette nearest by and the casters of the whole kernel: two opinions on the occluder's depth, of equal
+  // weight unless the kernel is too empty for its mean to have any bits.
+  HS_HIGHP vec2 mean = mix(boxes.rg, boxes.ba, upper);
+  HS_HIGHP float meanGap = hs_receiverValue - u_casterDepth.x - u_casterDepth.y * (mean.y / max(mean.x, 1e-3));
+  gap = mix(gap, meanGap, 0.5 * min(8.0 * mean.x, 1.0));
+  widths = u_widthRange.zw * max(gap, 0.0);
+  upper = clamp(0.5 * log2(max(widths.x * widths.y - 2.0, 4.0)) - lower, 0.0, 1.0);
+  widths = max(widths, u_casterDepth.z);
+  HS_HIGHP float small = boxes.r - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower))));
+  HS_HIGHP float large = boxes.b - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower + 1.0))));
+  HS_HIGHP float share = hs_halfPlane(signedTexels, normal, widths) + mix(small, large, upper);
+  HS_HIGHP float inner = hs_discOutside(abs(signedTexels) / min(widths.x, widths.y));
+  return 1.0 - (signedTexels < 0.0 ? clamp(share, 0.0, inner) : clamp(share, 1.0 - inner, 1.0));
+#else
+  return 1.0 - hs_halfPlane(signedTexels, normal, max(u_widthRange.zw * gap, u_casterDepth.z));
+#endif
+}
+#endif
+
+float halfshadow_visibility() {
+  hs_prepare();
+  return hs_lightMisses ? 1.0 : hs_visibility();
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
+#include "receiver_main.glsl"
+#endif

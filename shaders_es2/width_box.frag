@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Means over boxes of twice the side: four boxes of half the side beside each other.
+// Based on: Decoret, "N-Buffers for Efficient Depth Map Query", 2005, section 3 (the doubling).
+varying HS_HIGHP vec2 v_uv;
+uniform HS_HIGHP sampler2D u_coverage;
+uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
+uniform HS_HIGHP vec4 u_box;          // x: texels to the neighbour boxes, signed
+
+void main() {
+  HS_HIGHP vec2 cell = (floor(v_uv * u_widthLayout.xy) + 0.5) * u_widthLayout.zw;
+  HS_HIGHP vec2 s = vec2(u_box.x * u_widthLayout.z, 0.0);
+  HS_HIGHP vec2 t = vec2(0.0, u_box.x * u_widthLayout.w);
+  HS_HIGHP vec2 sum = texture2D(u_coverage, cell).rg + texture2D(u_coverage, cell + s).rg +
+                      texture2D(u_coverage, cell + t).rg + texture2D(u_coverage, cell + s + t).rg;
+  gl_FragColor = vec4((floor(sum * (255.0 / 4.0) + 0.5) + 0.25) / 255.0, 0.0, 1.0);
+}
