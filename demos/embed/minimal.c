@@ -22,7 +22,8 @@ static void* load(const char* name, void* user) {
 }
 
 static int openContext(void) {
-  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT, EGL_SURFACE_TYPE, EGL_PBUFFER_BIT, EGL_NONE};
+  const EGLint config_attributes[] = {EGL_RENDERABLE_TYPE, EGL_OPENGL_ES2_BIT, EGL_SURFACE_TYPE,
+                                      EGL_PBUFFER_BIT, EGL_NONE};
   const EGLint context_attributes[] = {EGL_CONTEXT_CLIENT_VERSION, 2, EGL_NONE};
   const EGLint surface_attributes[] = {EGL_WIDTH, 16, EGL_HEIGHT, 16, EGL_NONE};
   const char* extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

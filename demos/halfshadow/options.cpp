@@ -110,9 +110,10 @@ void addDriverArguments(CLI::App& app, DriverArguments& arguments) {
       ->capture_default_str();
   app.add_option("--egl-library", arguments.eglLibrary,
                  "file of the EGL library (default: the driver's own)");
-  app.add_option("--device-profile", arguments.deviceProfile,
-                 "measured choices for the device: FILE (device.json of `halfshadow profile`), auto (the kept "
-                 "profile of this renderer, if any) or none")
+  app.add_option(
+         "--device-profile", arguments.deviceProfile,
+         "measured choices for the device: FILE (device.json of `halfshadow profile`), auto (the kept "
+         "profile of this renderer, if any) or none")
       ->capture_default_str();
   app.add_option("--force", arguments.force,
                  "CAPABILITY=off: do as if the device lacked it, e.g. depth-texture=off; repeatable "

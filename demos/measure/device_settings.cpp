@@ -13,10 +13,12 @@ using nlohmann::json;
 
 Result<json> readProfile(const std::string& path) {
   std::ifstream file(path);
-  if (!file) return Error{ErrorCode::fileNotFound, path + ": the device profile cannot be read; check the path"};
+  if (!file)
+    return Error{ErrorCode::fileNotFound, path + ": the device profile cannot be read; check the path"};
   json profile = json::parse(file, nullptr, false);
   if (!profile.is_object()) {
-    return Error{ErrorCode::fileMalformed, path + ": not a device profile; give a device.json of `halfshadow profile`"};
+    return Error{ErrorCode::fileMalformed,
+                 path + ": not a device profile; give a device.json of `halfshadow profile`"};
   }
   return profile;
 }
@@ -25,9 +27,10 @@ Result<std::vector<Setting>> settingsOf(const std::string& path, const json& pro
   std::vector<Setting> settings;
   const json list = profile.value("settings", json::array());
   for (const json& entry : list) {
-    if (!entry.is_object() || !entry.contains("key") || !entry.contains("value") || !entry["key"].is_string() ||
-        !entry["value"].is_string()) {
-      return Error{ErrorCode::fileMalformed, path + ": each of \"settings\" needs a text \"key\" and \"value\""};
+    if (!entry.is_object() || !entry.contains("key") || !entry.contains("value") ||
+        !entry["key"].is_string() || !entry["value"].is_string()) {
+      return Error{ErrorCode::fileMalformed,
+                   path + ": each of \"settings\" needs a text \"key\" and \"value\""};
     }
     settings.push_back({entry["key"], entry["value"]});
   }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Measured choices for a device, read from a device profile: what `halfshadow profile` writes as device.json,
-/// and what profiles/devices/ keeps.
+/// Measured choices for a device, read from a device profile: what `halfshadow profile` writes as
+/// device.json, and what profiles/devices/ keeps.
 #pragma once
 
 #include <string>
@@ -13,8 +13,9 @@
 
 namespace halfshadow::measure {
 
-/// Settings of the profile `source`: a file; "auto": the one of profiles/devices/ whose `match.renderer` is part
-/// of `renderer`, nothing when none is; "none": nothing. Errors: fileNotFound, fileMalformed (naming the file).
+/// Settings of the profile `source`: a file; "auto": the one of profiles/devices/ whose `match.renderer` is
+/// part of `renderer`, nothing when none is; "none": nothing. Errors: fileNotFound, fileMalformed (naming the
+/// file).
 Result<std::vector<Setting>> deviceSettings(const std::string& source, const std::string& renderer);
 
 }  // namespace halfshadow::measure

@@ -31,7 +31,8 @@ template <typename T>
 bool fits(const T* desc) {
   return desc != nullptr && desc->struct_size == sizeof(T);
 }
-constexpr const char* kWrongSize = "a struct is null or its struct_size is not sizeof the struct of this header";
+constexpr const char* kWrongSize =
+    "a struct is null or its struct_size is not sizeof the struct of this header";
 
 template <typename T, std::size_t n>
 void copy(const T (&source)[n], T (&target)[n]) {
@@ -41,16 +42,18 @@ void copy(const T (&source)[n], T (&target)[n]) {
 
 extern "C" {
 
-HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, HalfshadowError* error, const char** message) {
+HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, HalfshadowError* error,
+                                    const char** message) {
   Outcome outcome{halfshadow::ErrorCode::invalidArgument, kWrongSize};
   std::unique_ptr<HalfshadowEngine> made;
   if (fits(desc)) {
-    halfshadow::Engine* engine = halfshadow::Engine::create({.getProcAddress = desc->get_proc_address,
-                                                             .getProcAddressUser = desc->get_proc_address_user,
-                                                             .forcedOff = desc->forced_off,
-                                                             .forcedOffCount = desc->forced_off_count,
-                                                             .hostState = static_cast<halfshadow::HostState>(desc->host_state)},
-                                                            outcome);
+    halfshadow::Engine* engine =
+        halfshadow::Engine::create({.getProcAddress = desc->get_proc_address,
+                                    .getProcAddressUser = desc->get_proc_address_user,
+                                    .forcedOff = desc->forced_off,
+                                    .forcedOffCount = desc->forced_off_count,
+                                    .hostState = static_cast<halfshadow::HostState>(desc->host_state)},
+                                   outcome);
     if (engine) {
       made = std::make_unique<HalfshadowEngine>();
       made->engine.reset(engine);
@@ -61,11 +64,16 @@ HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, Halfshadow
   return made.release();
 }
 
-void halfshadow_destroy(HalfshadowEngine* engine) { delete engine; }
+void halfshadow_destroy(HalfshadowEngine* engine) {
+  delete engine;
+}
 
-const char* halfshadow_message(const HalfshadowEngine* engine) { return engine->message.c_str(); }
+const char* halfshadow_message(const HalfshadowEngine* engine) {
+  return engine->message.c_str();
+}
 
-HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const HalfshadowObjectDesc* desc, uint32_t* id) {
+HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const HalfshadowObjectDesc* desc,
+                                      uint32_t* id) {
   if (!fits(desc) || id == nullptr) return refuse(engine, kWrongSize);
   halfshadow::ObjectDesc object;
   object.mesh = {.positions = desc->positions,
@@ -74,7 +82,8 @@ HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const Halfshadow
                  .indices = desc->indices,
                  .indexCount = desc->index_count,
                  .normals = desc->normals};
-  const bool placed = std::any_of(desc->world_from_object, desc->world_from_object + 16, [](double e) { return e != 0; });
+  const bool placed =
+      std::any_of(desc->world_from_object, desc->world_from_object + 16, [](double e) { return e != 0; });
   if (placed) copy(desc->world_from_object, object.worldFromObject);
   object.casts = desc->casts != 0;
   object.receives = desc->receives != 0;
@@ -82,8 +91,10 @@ HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const Halfshadow
   return finish(engine, engine->engine->addObject(object, *id));
 }
 
-HalfshadowError halfshadow_set_transform(HalfshadowEngine* engine, uint32_t id, const double world_from_object[16]) {
-  if (world_from_object == nullptr) return refuse(engine, "halfshadow_set_transform needs a matrix of 16 numbers");
+HalfshadowError halfshadow_set_transform(HalfshadowEngine* engine, uint32_t id,
+                                         const double world_from_object[16]) {
+  if (world_from_object == nullptr)
+    return refuse(engine, "halfshadow_set_transform needs a matrix of 16 numbers");
   return finish(engine, engine->engine->setTransform(id, world_from_object));
 }
 
@@ -91,7 +102,8 @@ HalfshadowError halfshadow_remove_object(HalfshadowEngine* engine, uint32_t id) 
   return finish(engine, engine->engine->removeObject(id));
 }
 
-HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const HalfshadowLightDesc* lights, size_t count) {
+HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const HalfshadowLightDesc* lights,
+                                      size_t count) {
   halfshadow::LightDesc descs[halfshadow::kMaxLights];
   if (count > static_cast<size_t>(halfshadow::kMaxLights)) return refuse(engine, "at most 4 lights");
   for (size_t i = 0; i < count; ++i) {
@@ -114,9 +126,11 @@ HalfshadowError halfshadow_set(HalfshadowEngine* engine, const char* key, const 
   return finish(engine, engine->engine->set(key, value));
 }
 
-HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRenderDesc* desc, HalfshadowReport* report) {
+HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRenderDesc* desc,
+                                  HalfshadowReport* report) {
   if (!fits(desc) || (report != nullptr && !fits(report))) return refuse(engine, kWrongSize);
-  if (desc->output < HALFSHADOW_SHADED || desc->output > HALFSHADOW_LIGHTS_ONLY) return refuse(engine, "unknown output");
+  if (desc->output < HALFSHADOW_SHADED || desc->output > HALFSHADOW_LIGHTS_ONLY)
+    return refuse(engine, "unknown output");
   halfshadow::RenderDesc frame;
   copy(desc->eye, frame.camera.eye);
   copy(desc->target, frame.camera.target);
@@ -124,7 +138,8 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
   frame.camera.verticalFovRadians = desc->vertical_fov_radians;
   frame.camera.nearDistance = desc->near_distance;
   frame.camera.farDistance = desc->far_distance;
-  frame.target = {.kind = desc->use_host_framebuffer ? halfshadow::TargetDesc::Kind::host : halfshadow::TargetDesc::Kind::engine,
+  frame.target = {.kind = desc->use_host_framebuffer ? halfshadow::TargetDesc::Kind::host
+                                                     : halfshadow::TargetDesc::Kind::engine,
                   .framebuffer = desc->framebuffer,
                   .x = desc->x,
                   .y = desc->y,
@@ -135,18 +150,23 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
   halfshadow::FrameReport done;
   const HalfshadowError error = finish(engine, engine->engine->render(frame, done));
   if (report) {
-    *report = {sizeof(HalfshadowReport), done.passCount,    done.draws,        done.triangles, done.framebufferSwitches,
-               done.bytesLoaded,         done.bytesStored,  done.memoryBytes,  done.planText};
+    *report = {sizeof(HalfshadowReport), done.passCount,           done.draws,
+               done.triangles,           done.framebufferSwitches, done.bytesLoaded,
+               done.bytesStored,         done.memoryBytes,         done.planText};
   }
   return error;
 }
 
-uint32_t halfshadow_output_texture(const HalfshadowEngine* engine) { return engine->engine->outputTexture(); }
+uint32_t halfshadow_output_texture(const HalfshadowEngine* engine) {
+  return engine->engine->outputTexture();
+}
 
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count) {
   return finish(engine, engine->engine->readOutput(rgba, byte_count));
 }
 
-void halfshadow_context_lost(HalfshadowEngine* engine) { engine->engine->contextLost(); }
+void halfshadow_context_lost(HalfshadowEngine* engine) {
+  engine->engine->contextLost();
+}
 
 }  // extern "C"

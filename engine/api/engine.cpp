@@ -23,9 +23,12 @@ Outcome Engine::State::fail(const Error& error) {
 
 gl::HostStatePolicy Engine::State::policy() const {
   switch (hostState) {
-    case HostState::restore: return gl::HostStatePolicy::restore;
-    case HostState::leaveDefaults: return gl::HostStatePolicy::leaveDefaults;
-    case HostState::leaveDirty: break;
+    case HostState::restore:
+      return gl::HostStatePolicy::restore;
+    case HostState::leaveDefaults:
+      return gl::HostStatePolicy::leaveDefaults;
+    case HostState::leaveDirty:
+      break;
   }
   return gl::HostStatePolicy::leaveDirty;
 }
@@ -34,7 +37,8 @@ Engine::Engine() : state_(new State) {}
 
 Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
   if (desc.getProcAddress == nullptr) {
-    outcome = createFailed({ErrorCode::invalidArgument, "EngineDesc::getProcAddress is null; pass the host's loader"});
+    outcome = createFailed(
+        {ErrorCode::invalidArgument, "EngineDesc::getProcAddress is null; pass the host's loader"});
     return nullptr;
   }
   gl::ContextOptions options;
@@ -46,8 +50,9 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
     }
     options.forcedOff.push_back(*capability);
   }
-  auto context = gl::Context::create(
-      [load = desc.getProcAddress, user = desc.getProcAddressUser](const char* name) { return load(name, user); }, options);
+  auto context = gl::Context::create([load = desc.getProcAddress, user = desc.getProcAddressUser](
+                                         const char* name) { return load(name, user); },
+                                     options);
   if (!context) {
     outcome = createFailed(context.error());
     return nullptr;
@@ -56,9 +61,11 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
   State& state = *engine->state_;
   state.context = std::move(context).value();
   state.hostState = desc.hostState;
-  state.programs = std::make_unique<gl::ProgramCache>(
-      *state.context, desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder) : gl::ShaderSourceProvider(gl::embeddedShader),
-      techniques::shaderTable());
+  state.programs =
+      std::make_unique<gl::ProgramCache>(*state.context,
+                                         desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder)
+                                                           : gl::ShaderSourceProvider(gl::embeddedShader),
+                                         techniques::shaderTable());
   state.encoder = std::make_unique<gl::Encoder>(*state.context);
   state.executor = std::make_unique<framegraph::Executor>(*state.context);
   state.techniques = techniques::makeAllTechniques();
@@ -73,7 +80,8 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
 
 Engine::~Engine() {
   {
-    gl::HostStateGuard guard(*state_->context, state_->context->lost() ? gl::HostStatePolicy::leaveDirty : state_->policy());
+    gl::HostStateGuard guard(*state_->context,
+                             state_->context->lost() ? gl::HostStatePolicy::leaveDirty : state_->policy());
     state_->lastFrame.reset();
     state_->executor.reset();
     state_->shared.forget();
@@ -90,7 +98,9 @@ void Engine::contextLost() {
   for (const auto& technique : state_->techniques) technique->contextLost();
 }
 
-int Engine::liveObjectCount() const { return state_->context->liveObjects().total(); }
+int Engine::liveObjectCount() const {
+  return state_->context->liveObjects().total();
+}
 
 void Engine::finish() {
   if (!state_->context->lost()) state_->encoder->finish();
@@ -105,12 +115,14 @@ Outcome Engine::setTechnique(const char* id) {
     if (technique->info().id != wanted) continue;
     const techniques::Support support = technique->support(state.context->capabilities());
     if (!support.supported) {
-      return state.fail({ErrorCode::capabilityMissing, "technique " + std::string(wanted) + " needs " + support.reason});
+      return state.fail(
+          {ErrorCode::capabilityMissing, "technique " + std::string(wanted) + " needs " + support.reason});
     }
     state.technique = technique.get();
     return {};
   }
-  return state.fail({ErrorCode::unknownTechnique, "unknown technique \"" + std::string(wanted) + "\"; known: " + known});
+  return state.fail(
+      {ErrorCode::unknownTechnique, "unknown technique \"" + std::string(wanted) + "\"; known: " + known});
 }
 
 Outcome Engine::set(const char* key, const char* value) {
@@ -135,7 +147,8 @@ Outcome Engine::setLights(const LightDesc* lights, std::size_t count) {
     if (glm::length(light->halfU) == 0.0) {
       const glm::dvec3 emission = vector(desc.emission);
       if (!(glm::length(emission) > 0.0) || !std::isfinite(glm::length(emission))) {
-        return state.fail({ErrorCode::invalidLight, "a point light needs a finite, non-zero emission direction"});
+        return state.fail(
+            {ErrorCode::invalidLight, "a point light needs a finite, non-zero emission direction"});
       }
       light->emission = glm::normalize(emission);
     }
@@ -150,7 +163,8 @@ Outcome Engine::setLights(const LightDesc* lights, std::size_t count) {
   std::vector<std::uint64_t> revisions;
   for (std::size_t i = 0; i < checked.size(); ++i) {
     const bool same = i < state.lights.size() && state.lights[i].centerWorld == checked[i].centerWorld &&
-                      state.lights[i].halfU == checked[i].halfU && state.lights[i].halfV == checked[i].halfV &&
+                      state.lights[i].halfU == checked[i].halfU &&
+                      state.lights[i].halfV == checked[i].halfV &&
                       state.lights[i].emission == checked[i].emission &&
                       (state.lights[i].intensity > 0) == (checked[i].intensity > 0);
     revisions.push_back(same ? state.lightRevisions[i] : state.nextRevision++);

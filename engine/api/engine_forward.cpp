@@ -7,7 +7,8 @@
 namespace halfshadow {
 namespace {
 Error noFrame() {
-  return {ErrorCode::invalidArgument, "no frame with this light was rendered; call render (Output::lightsOnly suffices) first"};
+  return {ErrorCode::invalidArgument,
+          "no frame with this light was rendered; call render (Output::lightsOnly suffices) first"};
 }
 }  // namespace
 
@@ -15,8 +16,8 @@ Status Engine::State::checkForward(std::size_t light) const {
   if (context->lost()) return Error{ErrorCode::contextLost, "the context was lost; make a new engine"};
   if (!lastFrame || light >= lastFrame->lights.size()) return noFrame();
   if (!lastFrame->lights[light].shading.forward) {
-    return Error{ErrorCode::capabilityMissing, "technique " + technique->info().id +
-                                                   " works on the screen only; use Output::visibility"};
+    return Error{ErrorCode::capabilityMissing,
+                 "technique " + technique->info().id + " works on the screen only; use Output::visibility"};
   }
   return {};
 }
@@ -32,16 +33,19 @@ Outcome Engine::forwardSource(std::size_t light, ForwardRecord& record) {
   record = {.vertexGlsl = state.forwardTexts.vertex.c_str(),
             .fragmentGlsl = state.forwardTexts.fragment.c_str(),
             .textureUnits = static_cast<int>(shading.textures.size()),
-            .readsFacetNormal = shading.usesFacetPlane && techniques::needsFacetStream(state.context->capabilities())};
+            .readsFacetNormal =
+                shading.usesFacetPlane && techniques::needsFacetStream(state.context->capabilities())};
   return {};
 }
 
-Outcome Engine::bindForward(std::size_t light, std::uint32_t program, const double worldFromObject[16], int firstTextureUnit) {
+Outcome Engine::bindForward(std::size_t light, std::uint32_t program, const double worldFromObject[16],
+                            int firstTextureUnit) {
   State& state = *state_;
   if (Status s = state.checkForward(light); !s) return state.fail(s.error());
   const techniques::ReceiverShading& shading = state.lastFrame->lights[light].shading;
   const int units = static_cast<int>(shading.textures.size());
-  if (firstTextureUnit < 0 || firstTextureUnit + units > state.context->capabilities().limits.fragmentTextureUnits) {
+  if (firstTextureUnit < 0 ||
+      firstTextureUnit + units > state.context->capabilities().limits.fragmentTextureUnits) {
     return state.fail({ErrorCode::invalidArgument, "bindForward needs " + std::to_string(units) +
                                                        " texture units; choose a smaller firstTextureUnit"});
   }

@@ -8,7 +8,9 @@
 
 namespace halfshadow {
 namespace {
-glm::dvec3 toVector(const double v[3]) { return {v[0], v[1], v[2]}; }
+glm::dvec3 toVector(const double v[3]) {
+  return {v[0], v[1], v[2]};
+}
 
 scene::Camera toCamera(const CameraDesc& desc) {
   return {.eyeWorld = toVector(desc.eye),
@@ -27,8 +29,8 @@ Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
   }
   if (target.kind == TargetDesc::Kind::engine && std::max(target.width, target.height) > limit) {
     return Error{ErrorCode::invalidArgument, "the target's size " + std::to_string(target.width) + "x" +
-                                                 std::to_string(target.height) + " is above this device's limit of " +
-                                                 std::to_string(limit)};
+                                                 std::to_string(target.height) +
+                                                 " is above this device's limit of " + std::to_string(limit)};
   }
   return {};
 }
@@ -50,9 +52,12 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
     case Output::shaded:
       return lightCount > 1 ? techniques::ReceiverOutput::visibility : techniques::ReceiverOutput::shaded;
     case Output::visibility:
-    case Output::lightsOnly: return techniques::ReceiverOutput::visibility;
-    case Output::visibility16: return techniques::ReceiverOutput::visibility16;
-    case Output::taps: return techniques::ReceiverOutput::taps;
+    case Output::lightsOnly:
+      return techniques::ReceiverOutput::visibility;
+    case Output::visibility16:
+      return techniques::ReceiverOutput::visibility16;
+    case Output::taps:
+      return techniques::ReceiverOutput::taps;
   }
   return techniques::ReceiverOutput::visibility;
 }
@@ -60,11 +65,14 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
 void appendPoints(const EngineObject& object, std::vector<glm::dvec3>& points) {
   for (const std::uint32_t index : object.mesh.indices) {
     // Only the first use of a vertex matters; consecutive triangles share most, so a cheap filter suffices.
-    points.push_back(glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh.positions[index]), 1.0)));
+    points.push_back(
+        glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh.positions[index]), 1.0)));
   }
 }
 
-framegraph::ClearValue clearColor(float r, float g, float b, float a) { return {.color = {r, g, b, a}}; }
+framegraph::ClearValue clearColor(float r, float g, float b, float a) {
+  return {.color = {r, g, b, a}};
+}
 
 framegraph::ClearValue clearValueOf(const RenderDesc& desc) {
   if (desc.output == Output::taps) return clearColor(0, 0, 0, 0);
@@ -73,10 +81,14 @@ framegraph::ClearValue clearValueOf(const RenderDesc& desc) {
 }
 
 /// A colour image of the frame's size with a depth buffer of its own.
-std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, const std::string& name, const TargetDesc& target,
-                                                   framegraph::Lifetime lifetime, const framegraph::ClearValue& clear) {
-  const auto color = graph.addResource({.name = name, .width = target.width, .height = target.height, .lifetime = lifetime});
-  const auto depth = graph.addResource({.name = name + " depth", .width = target.width, .height = target.height,
+std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, const std::string& name,
+                                                   const TargetDesc& target, framegraph::Lifetime lifetime,
+                                                   const framegraph::ClearValue& clear) {
+  const auto color =
+      graph.addResource({.name = name, .width = target.width, .height = target.height, .lifetime = lifetime});
+  const auto depth = graph.addResource({.name = name + " depth",
+                                        .width = target.width,
+                                        .height = target.height,
                                         .format = framegraph::Format::depth24,
                                         .storage = framegraph::Storage::renderbuffer});
   return {{.resource = color, .point = framegraph::AttachmentPoint::color, .clear = clear},
@@ -85,8 +97,8 @@ std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, con
 }  // namespace
 
 Status Engine::State::declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
-                                   const std::vector<const EngineObject*>& sceneObjects, std::uint64_t sceneRevision,
-                                   const RenderDesc& desc) {
+                                   const std::vector<const EngineObject*>& sceneObjects,
+                                   std::uint64_t sceneRevision, const RenderDesc& desc) {
   const scene::AreaLight& light = lights[index];
   FrameLight& target = frame.lights[index];
   LightCache& cache = lightCaches[index];
@@ -118,27 +130,29 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   for (const EngineObject* object : sceneObjects) {
     if (!object->receives) continue;
     if (!object->casts) target.shadowlessReceivers.push_back(drawItem(*object));
-    farthest = std::max(farthest, api::receiverFarDistance(
-                                      cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
+    farthest =
+        std::max(farthest, api::receiverFarDistance(
+                               cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
   }
-  const techniques::LightFrame lightFrame{.capabilities = context->capabilities(),
-                                          .context = *context,
-                                          .programs = *programs,
-                                          .shared = shared,
-                                          .settings = *settings,
-                                          .graph = frame.graph,
-                                          .view = frame.view,
-                                          .light = light,
-                                          .lightIndex = static_cast<int>(index),
-                                          .fit = cache.fit,
-                                          .casterPointsWorld = cache.casterPointsWorld,
-                                          .receiverFarDistance = farthest,
-                                          .casters = target.casters,
-                                          .receivers = frame.receivers,
-                                          .shadowlessReceivers = target.shadowlessReceivers,
-                                          .contentKey = plan.contentKey,
-                                          .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision),
-                                          .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
+  const techniques::LightFrame lightFrame{
+      .capabilities = context->capabilities(),
+      .context = *context,
+      .programs = *programs,
+      .shared = shared,
+      .settings = *settings,
+      .graph = frame.graph,
+      .view = frame.view,
+      .light = light,
+      .lightIndex = static_cast<int>(index),
+      .fit = cache.fit,
+      .casterPointsWorld = cache.casterPointsWorld,
+      .receiverFarDistance = farthest,
+      .casters = target.casters,
+      .receivers = frame.receivers,
+      .shadowlessReceivers = target.shadowlessReceivers,
+      .contentKey = plan.contentKey,
+      .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision),
+      .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
@@ -146,13 +160,15 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
     for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
     return {};
   }
-  auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc, lights.size()), frame.receivers);
+  auto linked = techniques::receiverPrograms(*programs, target.shading, receiverOutput(desc, lights.size()),
+                                             frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
 }
 
-void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc, std::vector<framegraph::Attachment> targets) {
+void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc,
+                                          std::vector<framegraph::Attachment> targets) {
   const auto output = receiverOutput(desc, frame.lights.size());
   const bool shaded = output == techniques::ReceiverOutput::shaded;
   framegraph::PassDesc pass{.name = shaded ? "receivers, shaded" : "receivers, visibility",
@@ -161,7 +177,8 @@ void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc, 
   // An image of one value a pixel shows the first light only.
   const std::size_t drawn = output == techniques::ReceiverOutput::visibility ? frame.lights.size() : 1;
   for (std::size_t i = 0; i < drawn; ++i) {
-    for (const auto resource : techniques::resourcesRead(frame.lights[i].shading)) pass.reads.push_back(resource);
+    for (const auto resource : techniques::resourcesRead(frame.lights[i].shading))
+      pass.reads.push_back(resource);
   }
   pass.execute = [&frame, drawn, shaded](framegraph::PassContext& passContext) {
     for (std::size_t i = 0; i < drawn; ++i) {
@@ -184,7 +201,8 @@ Status Engine::State::declareReceiverPasses(Frame& frame, const RenderDesc& desc
   const TargetDesc& target = desc.target;
   std::vector<framegraph::Attachment> targets;
   if (target.kind == TargetDesc::Kind::host) {
-    const auto host = frame.graph.importTarget("host target", {target.framebuffer, target.x, target.y, target.width, target.height});
+    const auto host = frame.graph.importTarget(
+        "host target", {target.framebuffer, target.x, target.y, target.width, target.height});
     targets = {{.resource = host, .point = AttachmentPoint::color, .clear = clear},
                {.resource = host, .point = AttachmentPoint::depth, .clear = clear}};
   } else {
@@ -199,30 +217,36 @@ Status Engine::State::declareReceiverPasses(Frame& frame, const RenderDesc& desc
     declareVisibilityPass(frame, desc, std::move(targets));
     return {};
   }
-  auto visibilityTargets = imageWithDepth(frame.graph, "visibilities", target, framegraph::Lifetime::transient,
-                                          clearColor(1, 1, 1, 1));
+  auto visibilityTargets = imageWithDepth(frame.graph, "visibilities", target,
+                                          framegraph::Lifetime::transient, clearColor(1, 1, 1, 1));
   frame.screenShading = techniques::shadeFromScreen(visibilityTargets.front().resource);
-  auto linked = techniques::receiverPrograms(*programs, frame.screenShading, techniques::ReceiverOutput::shaded, frame.receivers);
+  auto linked = techniques::receiverPrograms(*programs, frame.screenShading,
+                                             techniques::ReceiverOutput::shaded, frame.receivers);
   if (!linked) return linked.error();
   frame.screenPrograms = *linked;
   declareVisibilityPass(frame, desc, std::move(visibilityTargets));
-  framegraph::PassDesc pass{.name = "receivers, shaded", .stage = framegraph::PassStage::resolve,
-                            .reads = techniques::resourcesRead(frame.screenShading), .writes = std::move(targets)};
+  framegraph::PassDesc pass{.name = "receivers, shaded",
+                            .stage = framegraph::PassStage::resolve,
+                            .reads = techniques::resourcesRead(frame.screenShading),
+                            .writes = std::move(targets)};
   pass.execute = [&frame](framegraph::PassContext& passContext) {
-    techniques::drawReceivers(passContext, frame.screenShading, frame.screenPrograms, frame.view, frame.receivers,
-                              &frame.shadingInputs, {});
+    techniques::drawReceivers(passContext, frame.screenShading, frame.screenPrograms, frame.view,
+                              frame.receivers, &frame.shadingInputs, {});
   };
   frame.graph.addPass(std::move(pass));
   return {};
 }
 
 Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameReport) {
-  if (context->lost()) return Error{ErrorCode::contextLost, "the context was lost; make a new engine on the new context"};
+  if (context->lost())
+    return Error{ErrorCode::contextLost, "the context was lost; make a new engine on the new context"};
   if (Status s = checkTarget(desc.target, context->capabilities().limits); !s) return s;
   const scene::Camera camera = toCamera(desc.camera);
   if (Status s = scene::checkCamera(camera); !s) return s;
-  if (objects.empty()) return Error{ErrorCode::emptyScene, "the scene has no objects; add one before rendering"};
-  if (lights.empty()) return Error{ErrorCode::invalidLight, "no light is set; call setLights before rendering"};
+  if (objects.empty())
+    return Error{ErrorCode::emptyScene, "the scene has no objects; add one before rendering"};
+  if (lights.empty())
+    return Error{ErrorCode::invalidLight, "no light is set; call setLights before rendering"};
 
   gl::HostStateGuard guard(*context, policy());
   const gl::Counters before = encoder->counters();
@@ -255,7 +279,8 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   frame->lights.resize(lights.size());
   lightCaches.resize(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s) return s;
+    if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s)
+      return s;
   }
   if (desc.output != Output::lightsOnly) {
     if (Status s = declareReceiverPasses(*frame, desc); !s) return s;
@@ -264,8 +289,9 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
     return executor->contentKeyOf(resource);
   });
   if (!plan) return plan.error();
-  auto passReports = executor->run(frame->graph, *plan, *encoder,
-                                   desc.timing == Timing::perPass ? framegraph::PassTiming::perPass : framegraph::PassTiming::off);
+  auto passReports = executor->run(
+      frame->graph, *plan, *encoder,
+      desc.timing == Timing::perPass ? framegraph::PassTiming::perPass : framegraph::PassTiming::off);
   if (!passReports) return passReports.error();
   if (Status s = context->checkErrors("a frame"); !s) return s;
   report.passReports = std::move(passReports).value();
@@ -290,14 +316,17 @@ std::uint32_t Engine::outputTexture() const {
 
 Outcome Engine::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
   State& state = *state_;
-  if (state.context->lost()) return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+  if (state.context->lost())
+    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
   gl::HostStateGuard guard(*state.context, state.policy());  // framebufferFor may make and bind one
   const gl::Framebuffer* framebuffer =
-      state.lastFrame ? state.executor->framebufferFor(state.lastFrame->graph, state.lastFrame->color) : nullptr;
+      state.lastFrame ? state.executor->framebufferFor(state.lastFrame->graph, state.lastFrame->color)
+                      : nullptr;
   if (framebuffer == nullptr) {
     return state.fail({ErrorCode::invalidArgument, "no frame was rendered with TargetDesc::Kind::engine"});
   }
-  const auto width = static_cast<std::size_t>(state.outputWidth), height = static_cast<std::size_t>(state.outputHeight);
+  const auto width = static_cast<std::size_t>(state.outputWidth),
+             height = static_cast<std::size_t>(state.outputHeight);
   if (rgba == nullptr || byteCount < width * height * 4) {
     return state.fail({ErrorCode::invalidArgument, "readOutput needs width x height x 4 bytes"});
   }

@@ -29,18 +29,19 @@ void Engine::State::fillReport(const framegraph::Plan& plan, const planner::Fram
   for (std::size_t i = 0; i < report.passReports.size(); ++i) {
     const framegraph::PassReport& pass = report.passReports[i];
     const framegraph::PassStage stage = graph.passes()[plan.passes[i].pass].stage;
-    report.passes.push_back({.name = pass.name.c_str(),
-                             .target = pass.target.c_str(),
-                             .draws = pass.counters.draws,
-                             .triangles = pass.counters.triangles,
-                             .clear = pass.cleared,
-                             .load = pass.loaded,
-                             .store = pass.stored,
-                             .discard = pass.discarded,
-                             .bytesLoaded = pass.bytesLoaded,
-                             .bytesStored = pass.bytesStored,
-                             .milliseconds = pass.milliseconds,
-                             .lightSpace = stage == framegraph::PassStage::light || stage == framegraph::PassStage::mask});
+    report.passes.push_back(
+        {.name = pass.name.c_str(),
+         .target = pass.target.c_str(),
+         .draws = pass.counters.draws,
+         .triangles = pass.counters.triangles,
+         .clear = pass.cleared,
+         .load = pass.loaded,
+         .store = pass.stored,
+         .discard = pass.discarded,
+         .bytesLoaded = pass.bytesLoaded,
+         .bytesStored = pass.bytesStored,
+         .milliseconds = pass.milliseconds,
+         .lightSpace = stage == framegraph::PassStage::light || stage == framegraph::PassStage::mask});
   }
   report.skips.clear();
   for (const auto& skip : report.skipped) report.skips.push_back({skip.what.c_str(), skip.why.c_str()});
@@ -83,7 +84,9 @@ DriverRecord Engine::driver() const {
           .maxRenderbufferSize = capabilities.limits.renderbufferSize};
 }
 
-std::size_t Engine::capabilityCount() const { return gl::kCapabilityCount; }
+std::size_t Engine::capabilityCount() const {
+  return gl::kCapabilityCount;
+}
 
 CapabilityRecord Engine::capability(std::size_t index) const {
   const auto which = static_cast<gl::Capability>(index);
@@ -94,12 +97,16 @@ CapabilityRecord Engine::capability(std::size_t index) const {
           .reason = state.reason.c_str()};
 }
 
-std::size_t Engine::extensionCount() const { return state_->context->capabilities().extensions.size(); }
+std::size_t Engine::extensionCount() const {
+  return state_->context->capabilities().extensions.size();
+}
 const char* Engine::extension(std::size_t index) const {
   return state_->context->capabilities().extensions[index].c_str();
 }
 
-std::size_t Engine::techniqueCount() const { return state_->techniques.size(); }
+std::size_t Engine::techniqueCount() const {
+  return state_->techniques.size();
+}
 
 TechniqueRecord Engine::technique(std::size_t index) const {
   const techniques::TechniqueInfo& info = state_->techniques[index]->info();
@@ -113,7 +120,9 @@ TechniqueRecord Engine::technique(std::size_t index) const {
           .unsupportedReason = reason.c_str()};
 }
 
-std::size_t Engine::settingCount() const { return state_->settings->declared().size(); }
+std::size_t Engine::settingCount() const {
+  return state_->settings->declared().size();
+}
 
 SettingRecord Engine::setting(std::size_t index) const {
   const techniques::SettingInfo& info = state_->settings->declared()[index];
@@ -131,8 +140,9 @@ SettingRecord Engine::setting(std::size_t index) const {
     allowed = range;
   }
   value = state_->settings->text(info.key);
-  const char* type = info.type == techniques::SettingType::choice ? "choice"
-                     : info.type == techniques::SettingType::integer ? "integer" : "real";
+  const char* type = info.type == techniques::SettingType::choice    ? "choice"
+                     : info.type == techniques::SettingType::integer ? "integer"
+                                                                     : "real";
   return {.key = info.key.c_str(),
           .type = type,
           .defaultValue = info.defaultValue.c_str(),

@@ -26,7 +26,8 @@ Result<glm::dmat4> checkedTransform(const double matrix[16]) {
     return Error{ErrorCode::invalidArgument, "the object's transform has a NaN or infinite element"};
   }
   if (matrix[3] != 0 || matrix[7] != 0 || matrix[11] != 0 || matrix[15] != 1) {
-    return Error{ErrorCode::invalidArgument, "the object's transform is not affine: its last row must be 0 0 0 1"};
+    return Error{ErrorCode::invalidArgument,
+                 "the object's transform is not affine: its last row must be 0 0 0 1"};
   }
   if (glm::determinant(glm::dmat3(transform)) == 0.0) {
     return Error{ErrorCode::invalidArgument, "the object's transform is singular (a scale of zero?)"};
@@ -39,12 +40,14 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
   if (desc.baseColorWidth <= 0 || desc.baseColorHeight <= 0 || (channels != 3 && channels != 4)) {
     return Error{ErrorCode::invalidArgument, "a base colour image needs a positive size and 3 or 4 channels"};
   }
-  const auto width = static_cast<std::size_t>(desc.baseColorWidth), height = static_cast<std::size_t>(desc.baseColorHeight);
+  const auto width = static_cast<std::size_t>(desc.baseColorWidth),
+             height = static_cast<std::size_t>(desc.baseColorHeight);
   // Rows bottom first, alpha dropped: shadows of cut-out materials are not supported.
   std::vector<std::uint8_t> rgba(width * height * 4);
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
-      const std::uint8_t* source = desc.baseColorPixels + (y * width + x) * static_cast<std::size_t>(channels);
+      const std::uint8_t* source =
+          desc.baseColorPixels + (y * width + x) * static_cast<std::size_t>(channels);
       // glTF's texture origin is the top left, so row 0 stays first.
       std::uint8_t* target = rgba.data() + (y * width + x) * 4;
       target[0] = source[0], target[1] = source[1], target[2] = source[2], target[3] = 255;
@@ -52,13 +55,14 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
   }
   const auto powerOfTwo = [](std::size_t n) { return (n & (n - 1)) == 0; };
   const bool mips = powerOfTwo(width) && powerOfTwo(height);  // ES 2.0: others have no mips and no repeat
-  auto texture = gl::Texture::create(context,
-                                     {.width = desc.baseColorWidth,
-                                      .height = desc.baseColorHeight,
-                                      .filter = mips ? gl::TextureFilter::linearMipLinear : gl::TextureFilter::linear,
-                                      .wrap = mips ? gl::TextureWrap::repeat : gl::TextureWrap::clampToEdge,
-                                      .mipmapped = mips},
-                                     rgba.data());
+  auto texture =
+      gl::Texture::create(context,
+                          {.width = desc.baseColorWidth,
+                           .height = desc.baseColorHeight,
+                           .filter = mips ? gl::TextureFilter::linearMipLinear : gl::TextureFilter::linear,
+                           .wrap = mips ? gl::TextureWrap::repeat : gl::TextureWrap::clampToEdge,
+                           .mipmapped = mips},
+                          rgba.data());
   if (texture && mips) texture->generateMipmaps(context);
   return texture;
 }
@@ -67,7 +71,8 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   State& state = *state_;
   id = 0;
-  if (state.context->lost()) return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+  if (state.context->lost())
+    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
   auto mesh = checkedMesh(desc.mesh);
   if (!mesh) return state.fail(mesh.error());
   auto transform = checkedTransform(desc.worldFromObject);
@@ -110,10 +115,12 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   State& state = *state_;
   const auto found = state.objects.find(id);
   if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
-  if (state.context->lost()) return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+  if (state.context->lost())
+    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
   EngineObject& object = found->second;
   if (desc.vertexCount != object.mesh.positions.size()) {
-    return state.fail({ErrorCode::invalidArgument, "setVertices needs as many vertices as the object was added with"});
+    return state.fail(
+        {ErrorCode::invalidArgument, "setVertices needs as many vertices as the object was added with"});
   }
   if (desc.positions == nullptr || desc.positionStrideBytes < 12) {
     return state.fail({ErrorCode::invalidMesh, "setVertices needs positions, at least 12 bytes apart"});
@@ -129,7 +136,8 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   }
   object.mesh.positions = std::move(positions);
   if (desc.normals && !object.mesh.normals.empty()) {
-    for (std::uint32_t i = 0; i < desc.vertexCount; ++i) object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
+    for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
+      object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
   }
   gl::HostStateGuard guard(*state.context, state.policy());
   const Status updated = object.gpu.update(*state.context, object.mesh);
@@ -143,7 +151,8 @@ Outcome Engine::removeObject(ObjectId id) {
   State& state = *state_;
   const auto found = state.objects.find(id);
   if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
-  gl::HostStateGuard guard(*state.context, state.context->lost() ? gl::HostStatePolicy::leaveDirty : state.policy());
+  gl::HostStateGuard guard(*state.context,
+                           state.context->lost() ? gl::HostStatePolicy::leaveDirty : state.policy());
   state.objects.erase(found);
   return {};
 }

@@ -65,8 +65,8 @@ struct Frame {
   std::vector<FrameLight> lights;
   framegraph::Graph graph;
   framegraph::ResourceId color;
-  techniques::ShadingInputs shadingInputs;       ///< Output::shaded
-  techniques::ReceiverShading screenShading;     ///< Output::shaded with several lights
+  techniques::ShadingInputs shadingInputs;    ///< Output::shaded
+  techniques::ReceiverShading screenShading;  ///< Output::shaded with several lights
   techniques::ReceiverProgramSet screenPrograms;
 };
 
@@ -99,12 +99,14 @@ struct Engine::State {
   Status checkForward(std::size_t light) const;
   gl::HostStatePolicy policy() const;
   Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
-                      const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision, const RenderDesc& desc);
-  void declareVisibilityPass(Frame& frame, const RenderDesc& desc, std::vector<framegraph::Attachment> targets);
+                      const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision,
+                      const RenderDesc& desc);
+  void declareVisibilityPass(Frame& frame, const RenderDesc& desc,
+                             std::vector<framegraph::Attachment> targets);
   Status declareReceiverPasses(Frame& frame, const RenderDesc& desc);
   Status renderFrame(const RenderDesc& desc, FrameReport& report);
-  void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned, const gl::Counters& counters,
-                  FrameReport& report);
+  void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned,
+                  const gl::Counters& counters, FrameReport& report);
   std::uint64_t memoryBytes() const;
 };
 

@@ -26,7 +26,9 @@ bool clip(const std::array<double, 5>& a, const std::array<double, 5>& b, double
 
 double receiverFarDistance(const planner::LightFit& fit, const scene::Bounds& receiverWorld) {
   if (fit.empty || receiverWorld.empty()) return 0.0;
-  const auto toLight = [&](const glm::dvec3& world) { return glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0)); };
+  const auto toLight = [&](const glm::dvec3& world) {
+    return glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0));
+  };
   double farthest = 0.0;
   // z is linear, so over box ∩ pyramid it is largest on an edge of the box inside the pyramid …
   const auto corners = receiverWorld.corners();

@@ -12,7 +12,9 @@ LogSink& sink() {
 }
 }  // namespace
 
-void setLogSink(LogSink replacement) { sink() = std::move(replacement); }
+void setLogSink(LogSink replacement) {
+  sink() = std::move(replacement);
+}
 
 void logMessage(LogLevel level, std::string_view message) {
   if (sink()) sink()(level, message);

@@ -119,7 +119,8 @@ Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::st
 /// Names of `uniform … sampler2D` declarations in order of appearance, each once; comments are skipped.
 std::vector<std::string> samplerNamesOf(std::string_view source);
 
-/// One row of the table of allowed variants: a pair of files and the names of the defines that may be set with it.
+/// One row of the table of allowed variants: a pair of files and the names of the defines that may be set
+/// with it.
 struct AllowedVariants {
   std::string_view vertexFile, fragmentFile;
   std::vector<std::string_view> defines;

@@ -6,7 +6,8 @@
 
 namespace halfshadow::gl {
 
-ProgramCache::ProgramCache(Context& context, ShaderSourceProvider provider, std::vector<AllowedVariants> allowed)
+ProgramCache::ProgramCache(Context& context, ShaderSourceProvider provider,
+                           std::vector<AllowedVariants> allowed)
     : context_(context), provider_(std::move(provider)), allowed_(std::move(allowed)) {}
 
 Status ProgramCache::checkAllowed(const ProgramVariant& variant) const {

@@ -28,12 +28,14 @@ Status checkCamera(const Camera& camera) {
     return Error{ErrorCode::invalidCamera, "the camera has a NaN or infinite component; give finite numbers"};
   }
   if (glm::length(camera.targetWorld - camera.eyeWorld) == 0.0 || glm::length(camera.up) == 0.0) {
-    return Error{ErrorCode::invalidCamera, "the camera's eye equals its target, or up is zero; move one of them"};
+    return Error{ErrorCode::invalidCamera,
+                 "the camera's eye equals its target, or up is zero; move one of them"};
   }
   if (!(camera.verticalFovRadians > 0.0 && camera.verticalFovRadians < 3.14159)) {
     return Error{ErrorCode::invalidCamera, "the camera's field of view must lie between 0 and 180 degrees"};
   }
-  if (!(camera.nearDistance > 0.0 && camera.farDistance > camera.nearDistance && std::isfinite(camera.farDistance))) {
+  if (!(camera.nearDistance > 0.0 && camera.farDistance > camera.nearDistance &&
+        std::isfinite(camera.farDistance))) {
     return Error{ErrorCode::invalidCamera, "the camera needs 0 < near < far"};
   }
   return {};
@@ -53,7 +55,8 @@ glm::dmat4 viewFromWorld(const Camera& camera) {
 }
 
 glm::dmat4 clipFromView(const Camera& camera, double aspectWidthOverHeight) {
-  return glm::perspective(camera.verticalFovRadians, aspectWidthOverHeight, camera.nearDistance, camera.farDistance);
+  return glm::perspective(camera.verticalFovRadians, aspectWidthOverHeight, camera.nearDistance,
+                          camera.farDistance);
 }
 
 glm::dvec3 pixelRayWorld(const Camera& camera, int width, int height, double x, double y) {

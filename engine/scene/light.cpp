@@ -6,7 +6,9 @@
 
 namespace halfshadow::scene {
 namespace {
-bool finite(const glm::dvec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+bool finite(const glm::dvec3& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
 
 glm::dvec3 leastAlignedAxis(const glm::dvec3& direction) {
   const glm::dvec3 size = glm::abs(direction);
@@ -25,19 +27,22 @@ Result<AreaLight> areaLightFromVectors(glm::dvec3 centerWorld, glm::dvec3 halfU,
   if (lengthU > 0.0 && lengthV > 0.0) {
     // 1e-6 rad: below it the rectangle is a line and its emission side is rounding noise.
     if (glm::length(normal) <= 1e-6 * lengthU * lengthV) {
-      return Error{ErrorCode::invalidLight, "the light's u and v are parallel; give two independent half-extents"};
+      return Error{ErrorCode::invalidLight,
+                   "the light's u and v are parallel; give two independent half-extents"};
     }
     light.emission = glm::normalize(normal);
   } else if (lengthU > 0.0 || lengthV > 0.0) {
-    return Error{ErrorCode::invalidLight,
-                 "one of the light's u and v is zero; give two non-zero vectors, or two zero ones for a point"};
+    return Error{
+        ErrorCode::invalidLight,
+        "one of the light's u and v is zero; give two non-zero vectors, or two zero ones for a point"};
   }
   return light;
 }
 
 Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld, double sizeU, double sizeV,
                                  glm::dvec3 up) {
-  if (!finite(centerWorld) || !finite(targetWorld) || !finite(up) || !std::isfinite(sizeU) || !std::isfinite(sizeV)) {
+  if (!finite(centerWorld) || !finite(targetWorld) || !finite(up) || !std::isfinite(sizeU) ||
+      !std::isfinite(sizeV)) {
     return Error{ErrorCode::invalidLight, "the light has a NaN or infinite component; give finite numbers"};
   }
   if (sizeU < 0.0 || sizeV < 0.0) {
@@ -49,12 +54,16 @@ Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld,
   }
   const glm::dvec3 n = glm::normalize(aim);
   glm::dvec3 side = glm::cross(up, n);
-  if (glm::length(side) <= 1e-9 * glm::length(up) || glm::length(up) == 0.0) side = glm::cross(leastAlignedAxis(n), n);
+  if (glm::length(side) <= 1e-9 * glm::length(up) || glm::length(up) == 0.0)
+    side = glm::cross(leastAlignedAxis(n), n);
   const glm::dvec3 u = glm::normalize(side);
   const glm::dvec3 v = glm::cross(n, u);
-  return AreaLight{.centerWorld = centerWorld, .halfU = u * (sizeU / 2), .halfV = v * (sizeV / 2), .emission = n};
+  return AreaLight{
+      .centerWorld = centerWorld, .halfU = u * (sizeU / 2), .halfV = v * (sizeV / 2), .emission = n};
 }
 
-glm::dvec3 emissionDirection(const AreaLight& light) { return light.emission; }
+glm::dvec3 emissionDirection(const AreaLight& light) {
+  return light.emission;
+}
 
 }  // namespace halfshadow::scene

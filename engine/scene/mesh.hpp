@@ -16,8 +16,8 @@ namespace halfshadow::scene {
 /// A caller's triangle list, read once by buildMesh and never kept.
 /// `positions`: vertexCount × 3 floats, object space, scene units; `positionStrideBytes` from one vertex to
 /// the next (>= 12). `indices`: indexCount entries, a multiple of 3, counter-clockwise seen from outside;
-/// null = 0, 1, 2, … (as many as indexCount says, or all vertices when that is 0). `normals` (unit, optional) and `texcoords` (optional) are tightly packed, vertexCount
-/// entries each.
+/// null = 0, 1, 2, … (as many as indexCount says, or all vertices when that is 0). `normals` (unit, optional)
+/// and `texcoords` (optional) are tightly packed, vertexCount entries each.
 struct MeshView {
   const float* positions = nullptr;
   std::size_t positionStrideBytes = 12;
@@ -32,8 +32,8 @@ struct MeshView {
 struct MeshStatistics {
   std::uint32_t degenerateTrianglesDropped = 0;  ///< zero area or a repeated index
   std::uint32_t duplicateTrianglesDropped = 0;   ///< same three corners (same winding) as an earlier one
-  std::uint32_t boundaryEdges = 0;               ///< directed edges without their opposite, welded by position
-  std::uint32_t nonManifoldEdges = 0;            ///< undirected edges with more than two triangles
+  std::uint32_t boundaryEdges = 0;     ///< directed edges without their opposite, welded by position
+  std::uint32_t nonManifoldEdges = 0;  ///< undirected edges with more than two triangles
   bool closed() const { return boundaryEdges == 0; }
 };
 
@@ -51,7 +51,8 @@ struct TriangleMesh {
 };
 
 /// Copies, checks and cleans a mesh. Errors: invalidMesh (index out of range, index count not a multiple
-/// of 3, NaN or infinite position — the message names the first offending element), emptyScene (nothing left).
+/// of 3, NaN or infinite position — the message names the first offending element), emptyScene (nothing
+/// left).
 Result<TriangleMesh> buildMesh(const MeshView& view);
 
 }  // namespace halfshadow::scene

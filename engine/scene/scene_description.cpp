@@ -10,7 +10,8 @@ Bounds boundsWorld(const SceneDescription& scene, ObjectFilter filter) {
     if (filter == ObjectFilter::casters && !object.casts) continue;
     if (filter == ObjectFilter::receivers && !object.receives) continue;
     for (const std::uint32_t index : object.mesh->indices) {
-      bounds.include(glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh->positions[index]), 1.0)));
+      bounds.include(
+          glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh->positions[index]), 1.0)));
     }
   }
   return bounds;

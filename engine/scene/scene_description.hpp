@@ -44,9 +44,9 @@ struct SceneObject {
 struct SceneDescription {
   std::string name;
   std::vector<SceneObject> objects;
-  std::optional<Camera> camera;   ///< the file's own, or a built-in's defined one
-  std::vector<AreaLight> lights;  ///< the file's own, or a built-in's defined one
-  std::vector<std::string> notes; ///< warnings while loading, one sentence each
+  std::optional<Camera> camera;    ///< the file's own, or a built-in's defined one
+  std::vector<AreaLight> lights;   ///< the file's own, or a built-in's defined one
+  std::vector<std::string> notes;  ///< warnings while loading, one sentence each
 };
 
 enum class ObjectFilter { all, casters, receivers };

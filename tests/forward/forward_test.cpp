@@ -102,8 +102,9 @@ std::vector<std::uint8_t> Forward::drawnByHost(const ForwardRecord& forward) {
     EXPECT_TRUE(buffer.ok());
     buffers.push_back(std::move(buffer).value());
   }
-  const glm::dmat4 clipFromWorld = scene::clipFromView(*scene_.camera, static_cast<double>(kWidth) / kHeight) *
-                                   scene::viewFromWorld(*scene_.camera);
+  const glm::dmat4 clipFromWorld =
+      scene::clipFromView(*scene_.camera, static_cast<double>(kWidth) / kHeight) *
+      scene::viewFromWorld(*scene_.camera);
   encoder.beginFrame();
   encoder.beginPass({.framebuffer = &*framebuffer,
                      .viewport = {0, 0, kWidth, kHeight},
@@ -115,7 +116,8 @@ std::vector<std::uint8_t> Forward::drawnByHost(const ForwardRecord& forward) {
     // From unit 2 on: what the host keeps in units 0 and 1 must not matter.
     const Outcome bound = engine_->bindForward(0, program->name(), &object.worldFromObject[0][0], 2);
     EXPECT_TRUE(bound.ok()) << bound.message;
-    const gl::AttributeBinding attribute{gl::VertexAttribute::position, &buffers[i], 3, gl::AttributeType::float32, 12, 0};
+    const gl::AttributeBinding attribute{gl::VertexAttribute::position, &buffers[i], 3,
+                                         gl::AttributeType::float32,    12,          0};
     encoder.draw({.depth = {.test = gl::Compare::less, .write = true}},
                  {.attributes = {&attribute, 1}, .count = buffers[i].byteCount() / 12});
   }
@@ -132,11 +134,13 @@ TEST_P(Forward, isTheImageOfTheScreenSpaceRoute) {
 
   const Outcome lights = render(Output::lightsOnly);
   ASSERT_TRUE(lights.ok()) << lights.message;
-  for (std::size_t i = 0; i < report_.passCount; ++i) EXPECT_TRUE(report_.passes[i].lightSpace) << report_.passes[i].name;
+  for (std::size_t i = 0; i < report_.passCount; ++i)
+    EXPECT_TRUE(report_.passes[i].lightSpace) << report_.passes[i].name;
   ForwardRecord forward;
   const Outcome asked = engine_->forwardSource(0, forward);
   ASSERT_TRUE(asked.ok()) << asked.message;
-  if (forward.readsFacetNormal) GTEST_SKIP() << "derivatives or highp are missing: this host passes no facet normals";
+  if (forward.readsFacetNormal)
+    GTEST_SKIP() << "derivatives or highp are missing: this host passes no facet normals";
   const std::vector<std::uint8_t> host = drawnByHost(forward);
   ASSERT_EQ(host.size(), own.size());
 
@@ -154,8 +158,8 @@ TEST_P(Forward, isTheImageOfTheScreenSpaceRoute) {
   EXPECT_LE(differing, 138u) << GetParam();
 }
 INSTANTIATE_TEST_SUITE_P(Techniques, Forward,
-                         testing::Values("hard", "pcf", "pcf-masked", "pcf-quantized", "pcss", "pcss-mip", "vsm",
-                                         "occlusion-textures", "shadow-width"));
+                         testing::Values("hard", "pcf", "pcf-masked", "pcf-quantized", "pcss", "pcss-mip",
+                                         "vsm", "occlusion-textures", "shadow-width"));
 
 class ForwardErrors : public Forward {};
 TEST_F(ForwardErrors, nameTheFix) {

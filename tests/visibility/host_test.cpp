@@ -123,7 +123,8 @@ class Host : public EngineTest {
     const gl::state::StateValues now = gl::state::captureState(hostGl());
     gl::state::forEachState([&]<typename State, std::size_t i>() {
       EXPECT_TRUE(std::get<i>(now) == std::get<i>(expected))
-          << State::kName << " is not what the host left, after " << after << ": " << testing::PrintToString(std::get<i>(now));
+          << State::kName << " is not what the host left, after " << after << ": "
+          << testing::PrintToString(std::get<i>(now));
     });
   }
 };

@@ -5,8 +5,8 @@
  * units, ownership and errors are the same.
  *
  * Every struct begins with `struct_size`: set it to sizeof of the struct. All other fields may be zero; zero
- * means the default where one is given. Messages and reports live until the engine's next call. All calls come
- * from the thread on which the OpenGL ES context is current.
+ * means the default where one is given. Messages and reports live until the engine's next call. All calls
+ * come from the thread on which the OpenGL ES context is current.
  */
 #ifndef HALFSHADOW_H
 #define HALFSHADOW_H
@@ -91,19 +91,24 @@ typedef struct HalfshadowReport {
 } HalfshadowReport;
 
 /* Null on failure; then *error and *message (both may be null) say why. */
-HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, HalfshadowError* error, const char** message);
+HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, HalfshadowError* error,
+                                    const char** message);
 void halfshadow_destroy(HalfshadowEngine* engine);
 /* Sentence of the last failed call on this engine; "" after success. */
 const char* halfshadow_message(const HalfshadowEngine* engine);
 
-HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const HalfshadowObjectDesc* desc, uint32_t* id);
-HalfshadowError halfshadow_set_transform(HalfshadowEngine* engine, uint32_t id, const double world_from_object[16]);
+HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const HalfshadowObjectDesc* desc,
+                                      uint32_t* id);
+HalfshadowError halfshadow_set_transform(HalfshadowEngine* engine, uint32_t id,
+                                         const double world_from_object[16]);
 HalfshadowError halfshadow_remove_object(HalfshadowEngine* engine, uint32_t id);
-HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const HalfshadowLightDesc* lights, size_t count);
+HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const HalfshadowLightDesc* lights,
+                                      size_t count);
 HalfshadowError halfshadow_set_technique(HalfshadowEngine* engine, const char* id);
 HalfshadowError halfshadow_set(HalfshadowEngine* engine, const char* key, const char* value);
 /* `report` may be null. */
-HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRenderDesc* desc, HalfshadowReport* report);
+HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRenderDesc* desc,
+                                  HalfshadowReport* report);
 uint32_t halfshadow_output_texture(const HalfshadowEngine* engine);
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count);
 void halfshadow_context_lost(HalfshadowEngine* engine);

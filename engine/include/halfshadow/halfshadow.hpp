@@ -52,9 +52,11 @@ class Engine {
   /// frame; ask again when they change. Errors: invalidArgument (no frame yet, no such light),
   /// capabilityMissing (the technique works on the screen only, e.g. sampled).
   Outcome forwardSource(std::size_t light, ForwardRecord& record);
-  /// Sets the uniforms, samplers and texture bindings of the host's program for one object. The program must be
-  /// current; units firstTextureUnit … are bound and stay bound. Call after render (Output::lightsOnly suffices).
-  Outcome bindForward(std::size_t light, std::uint32_t program, const double worldFromObject[16], int firstTextureUnit);
+  /// Sets the uniforms, samplers and texture bindings of the host's program for one object. The program must
+  /// be current; units firstTextureUnit … are bound and stay bound. Call after render (Output::lightsOnly
+  /// suffices).
+  Outcome bindForward(std::size_t light, std::uint32_t program, const double worldFromObject[16],
+                      int firstTextureUnit);
 
   /// The context was lost: GL names are forgotten, nothing is deleted; then only destruction is allowed.
   void contextLost();

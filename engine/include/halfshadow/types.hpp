@@ -58,8 +58,8 @@ struct MeshDesc {
 struct ObjectDesc {
   MeshDesc mesh;
   double worldFromObject[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  ///< column-major, affine
-  bool casts = true;     ///< may shadow others (and itself)
-  bool receives = true;  ///< is drawn, with visibility
+  bool casts = true;                              ///< may shadow others (and itself)
+  bool receives = true;                           ///< is drawn, with visibility
   float baseColor[4] = {0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
   const std::uint8_t* baseColorPixels = nullptr;  ///< sRGB, baseColorChannels (3 or 4) a pixel, top row first
   int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;
@@ -87,8 +87,8 @@ struct CameraDesc {
 };
 
 enum class Output {
-  shaded,        ///< lit colours of all lights; one light is evaluated forward, in the same pass
-  visibility,    ///< light i in channel i, 8 bits; a single light in all four channels; 1 where no receiver is
+  shaded,      ///< lit colours of all lights; one light is evaluated forward, in the same pass
+  visibility,  ///< light i in channel i, 8 bits; a single light in all four channels; 1 where no receiver is
   visibility16,  ///< first light, red high byte, green low byte; value = (256·red + green) / 65280
   taps,          ///< first light, texture fetches of the visibility function; red low byte, green high byte
   lightsOnly     ///< light and mask passes alone: receivers are drawn by the host, forward (see bindForward)
@@ -147,12 +147,14 @@ struct FrameReport {
 /// GLSL ES 1.00 that a host puts right behind the #version line of its own shaders to receive one light's
 /// shadows in its own pass. Texts live until the engine's next call.
 struct ForwardRecord {
-  /// Declares `void halfshadow_receive(highp vec4 positionObject, highp vec3 facetNormalObject)`: call it in main.
+  /// Declares `void halfshadow_receive(highp vec4 positionObject, highp vec3 facetNormalObject)`: call it in
+  /// main.
   const char* vertexGlsl = "";
   /// Declares `float halfshadow_visibility()`: call it once, outside branches. Sets the default precision.
   const char* fragmentGlsl = "";
-  int textureUnits = 0;           ///< that bindForward uses, at most
-  bool readsFacetNormal = false;  ///< the host must pass the triangle's normal (derivatives or highp are missing)
+  int textureUnits = 0;  ///< that bindForward uses, at most
+  bool readsFacetNormal =
+      false;  ///< the host must pass the triangle's normal (derivatives or highp are missing)
 };
 
 struct CapabilityRecord {
@@ -174,10 +176,10 @@ struct TechniqueRecord {
 
 struct SettingRecord {
   const char* key = "";
-  const char* type = "";          ///< "integer", "real" or "choice"
+  const char* type = "";  ///< "integer", "real" or "choice"
   const char* defaultValue = "";
   const char* value = "";
-  const char* allowed = "";       ///< "2 … 17" or "grid, poisson"
+  const char* allowed = "";  ///< "2 … 17" or "grid, poisson"
   const char* text = "";
 };
 
@@ -190,7 +192,8 @@ struct DriverRecord {
   const char* byteRounding = "";  ///< of RGBA8 targets, measured
   int highpMantissaBits = 0, mediumpMantissaBits = 0;
   int maxTextureSize = 0, maxVaryingVectors = 0, maxFragmentUniformVectors = 0, maxVertexUniformVectors = 0;
-  int maxFragmentTextureUnits = 0, maxVertexTextureUnits = 0, maxVertexAttributes = 0, maxRenderbufferSize = 0;
+  int maxFragmentTextureUnits = 0, maxVertexTextureUnits = 0, maxVertexAttributes = 0,
+      maxRenderbufferSize = 0;
 };
 
 }  // namespace halfshadow

@@ -8,8 +8,8 @@
 namespace halfshadow::techniques {
 namespace {
 constexpr std::size_t kShortIndexVertices = 65536;
-/// Up to here three vertices a triangle cost less than derivatives in every fragment: 288 KiB, a few percent of
-/// one 1024 x 1024 depth map.
+/// Up to here three vertices a triangle cost less than derivatives in every fragment: 288 KiB, a few percent
+/// of one 1024 x 1024 depth map.
 constexpr std::uint32_t kFewTriangles = 4096;
 
 template <typename T>
@@ -40,7 +40,8 @@ std::vector<glm::vec3> facetStream(const scene::TriangleMesh& mesh) {
   return stream;
 }
 
-Status refresh(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target, std::span<const std::byte> bytes) {
+Status refresh(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
+               std::span<const std::byte> bytes) {
   if (buffer) return buffer.update(context, bytes);
   auto made = gl::Buffer::create(context, target, bytes, gl::BufferUsage::staticDraw);
   if (!made) return made.error();
@@ -69,7 +70,8 @@ void GpuMesh::split(const scene::TriangleMesh& mesh, bool wideIndices) {
       local.clear();
     }
     for (std::size_t corner = i; corner < i + 3; ++corner) {
-      const auto [found, added] = local.try_emplace(mesh.indices[corner], static_cast<std::uint32_t>(local.size()));
+      const auto [found, added] =
+          local.try_emplace(mesh.indices[corner], static_cast<std::uint32_t>(local.size()));
       if (added) sourceVertex_.push_back(mesh.indices[corner]);
       gpuIndices_.push_back(found->second);
     }
@@ -98,9 +100,11 @@ Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh&
   if (Status s = gpu.upload(context, mesh); !s) return s.error();
   if (!mesh.texcoords.empty()) {
     const auto texcoords = gathered(mesh.texcoords, gpu.sourceVertex_);
-    if (Status s = refresh(context, gpu.texcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s) return s.error();
+    if (Status s = refresh(context, gpu.texcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s)
+      return s.error();
   }
-  const bool shortIndices = std::ranges::all_of(gpu.gpuIndices_, [](std::uint32_t i) { return i < kShortIndexVertices; });
+  const bool shortIndices =
+      std::ranges::all_of(gpu.gpuIndices_, [](std::uint32_t i) { return i < kShortIndexVertices; });
   Status indices;
   if (shortIndices) {
     const std::vector<std::uint16_t> narrow(gpu.gpuIndices_.begin(), gpu.gpuIndices_.end());
@@ -117,7 +121,8 @@ Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh&
 Status GpuMesh::update(gl::Context& context, const scene::TriangleMesh& mesh) {
   const auto largest = std::ranges::max_element(sourceVertex_);
   if (largest != sourceVertex_.end() && *largest >= mesh.positions.size()) {
-    return Error{ErrorCode::invalidArgument, "an updated mesh has fewer vertices than it was made with; add it anew"};
+    return Error{ErrorCode::invalidArgument,
+                 "an updated mesh has fewer vertices than it was made with; add it anew"};
   }
   return upload(context, mesh);
 }
@@ -126,8 +131,9 @@ void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams str
   using gl::AttributeBinding;
   using gl::VertexAttribute;
   if (streams == Streams::facet && facet_) {
-    const AttributeBinding bindings[] = {{VertexAttribute::position, &facet_, 3, gl::AttributeType::float32, 24, 0},
-                                         {VertexAttribute::normal, &facet_, 3, gl::AttributeType::float32, 24, 12}};
+    const AttributeBinding bindings[] = {
+        {VertexAttribute::position, &facet_, 3, gl::AttributeType::float32, 24, 0},
+        {VertexAttribute::normal, &facet_, 3, gl::AttributeType::float32, 24, 12}};
     encoder.draw(state, {.attributes = bindings, .count = facetVertexCount_});
     return;
   }
@@ -136,10 +142,12 @@ void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams str
         {VertexAttribute::position, &positions_, 3, gl::AttributeType::float32, 12, range.firstVertex * 12}};
     std::size_t count = 1;
     if (streams == Streams::shading && normals_) {
-      bindings[count++] = {VertexAttribute::normal, &normals_, 3, gl::AttributeType::float32, 12, range.firstVertex * 12};
+      bindings[count++] = {VertexAttribute::normal,    &normals_, 3,
+                           gl::AttributeType::float32, 12,        range.firstVertex * 12};
     }
     if (streams == Streams::shading && texcoords_) {
-      bindings[count++] = {VertexAttribute::texcoord, &texcoords_, 2, gl::AttributeType::float32, 8, range.firstVertex * 8};
+      bindings[count++] = {VertexAttribute::texcoord,  &texcoords_, 2,
+                           gl::AttributeType::float32, 8,           range.firstVertex * 8};
     }
     encoder.draw(state, {.attributes = std::span(bindings, count),
                          .indices = &indices_,

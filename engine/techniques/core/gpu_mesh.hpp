@@ -16,9 +16,10 @@ namespace halfshadow::techniques {
 bool needsFacetStream(const gl::Capabilities& capabilities);
 
 /// Streams of one mesh: positions (12 bytes a vertex) with indices; normals and texture coordinates where the
-/// source has them (read by shading only); and a facet stream (position and facet normal, 24 bytes, three vertices
-/// a triangle), since the receiver-plane bias needs the exact facet plane: for every mesh where derivatives or
-/// highp are missing, elsewhere for meshes of few triangles, whose fragments then need no derivatives. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
+/// source has them (read by shading only); and a facet stream (position and facet normal, 24 bytes, three
+/// vertices a triangle), since the receiver-plane bias needs the exact facet plane: for every mesh where
+/// derivatives or highp are missing, elsewhere for meshes of few triangles, whose fragments then need no
+/// derivatives. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
 class GpuMesh {
  public:
   enum class Streams { positions, facet, shading };

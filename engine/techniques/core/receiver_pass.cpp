@@ -9,9 +9,12 @@ namespace {
 
 std::vector<std::string> outputDefines(ReceiverOutput output, bool baseColorTexture) {
   switch (output) {
-    case ReceiverOutput::visibility: return {};
-    case ReceiverOutput::visibility16: return {"HS_VISIBILITY_16"};
-    case ReceiverOutput::taps: return {"HS_COUNT_TAPS"};
+    case ReceiverOutput::visibility:
+      return {};
+    case ReceiverOutput::visibility16:
+      return {"HS_VISIBILITY_16"};
+    case ReceiverOutput::taps:
+      return {"HS_COUNT_TAPS"};
     case ReceiverOutput::shaded:
       return baseColorTexture ? std::vector<std::string>{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}
                               : std::vector<std::string>{"HS_SHADED"};
@@ -29,8 +32,8 @@ void bindTextures(framegraph::PassContext& context, gl::Program& program, const 
   context.encoder.bindTextures(bindings);
 }
 
-/// The facet stream has no smooth normals and no texture coordinates, so shading takes it only where there are no
-/// derivatives to replace it.
+/// The facet stream has no smooth normals and no texture coordinates, so shading takes it only where there
+/// are no derivatives to replace it.
 ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
   return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
           .textured = shaded && item.baseColorTexture != nullptr,
@@ -46,7 +49,8 @@ void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading
     // Rows s·z, t·z and z of the map are the space in which the facet's plane is taken.
     glm::dmat3 planeFromObject(0.0);
     for (int column = 0; column < 3; ++column) {
-      planeFromObject[column] = glm::dvec3(mapFromObject[column][0], mapFromObject[column][1], mapFromObject[column][3]);
+      planeFromObject[column] =
+          glm::dvec3(mapFromObject[column][0], mapFromObject[column][1], mapFromObject[column][3]);
     }
     glm::dmat3 normalMatrix = glm::inverseTranspose(planeFromObject);
     // Only the direction matters; unit scale keeps fp32 (and mediump varyings) in range for tiny worlds.
@@ -56,22 +60,24 @@ void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading
   }
 }
 
-void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
-                       const DrawItem& item, bool facets, const ShadingInputs* inputs) {
+void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
+                       const View& view, const DrawItem& item, bool facets, const ShadingInputs* inputs) {
   program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
   setMapUniforms(gl, program, shading, item.worldFromObject, facets);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front().light->centerWorld, 0.0);
   program.set(gl, "u_shadeFromObject", glm::mat4(relative));
-  program.set(gl, "u_worldNormalFromObject", glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
+  program.set(gl, "u_worldNormalFromObject",
+              glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
   program.set(gl, "u_baseColor", item.baseColor);
 }
 
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
                       const gl::Rect& viewport, const ShadingInputs* inputs) {
   if (shading.setUniforms) shading.setUniforms(program, gl);
-  const glm::vec2 scale(1.0f / static_cast<float>(viewport.width), 1.0f / static_cast<float>(viewport.height));
+  const glm::vec2 scale(1.0f / static_cast<float>(viewport.width),
+                        1.0f / static_cast<float>(viewport.height));
   program.set(gl, "u_viewport", glm::vec4(scale, -scale * glm::vec2(viewport.x, viewport.y)));
   if (inputs == nullptr) return;
   const glm::dvec3 origin = inputs->lights.front().light->centerWorld;
@@ -80,7 +86,8 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
     position[i].w = 1.0f;
     if (i >= inputs->lights.size()) continue;
     const scene::AreaLight& light = *inputs->lights[i].light;
-    position[i] = glm::vec4(glm::vec3(light.centerWorld - origin), static_cast<float>(inputs->lights[i].referenceDistance));
+    position[i] = glm::vec4(glm::vec3(light.centerWorld - origin),
+                            static_cast<float>(inputs->lights[i].referenceDistance));
     emission[i] = glm::vec4(glm::vec3(light.emission), 0.0f);
     color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
   }
@@ -109,8 +116,8 @@ std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading
 }
 
 namespace {
-Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading, ReceiverOutput output,
-                                      const ReceiverKind& kind) {
+Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
+                                      ReceiverOutput output, const ReceiverKind& kind) {
   ReceiverPrograms result;
   std::vector<std::string> defines = shading.defines;
   if (kind.facets) defines.push_back("HS_FACET_NORMAL");
@@ -151,13 +158,14 @@ Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const Re
   return set;
 }
 
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverProgramSet& programs,
-                   const View& view, std::span<const DrawItem> items, const ShadingInputs* inputs,
-                   const ReceiverTarget& target) {
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
+                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* inputs, const ReceiverTarget& target) {
   gl::Encoder& encoder = context.encoder;
   const bool derivatives = encoder.context().capabilities().has(gl::Capability::derivatives);
   gl::DrawState state;
-  state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less, .write = !target.depthIsComplete};
+  state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less,
+                 .write = !target.depthIsComplete};
   state.colorMask = target.colorMask;
   if (target.additive) {
     state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
@@ -179,16 +187,18 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
     setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs);
     state.cull = hiddenFaces(item, view.eyeWorld);
     item.mesh->draw(encoder, state,
-                    kind.facets ? GpuMesh::Streams::facet : inputs ? GpuMesh::Streams::shading : GpuMesh::Streams::positions);
+                    kind.facets ? GpuMesh::Streams::facet
+                    : inputs    ? GpuMesh::Streams::shading
+                                : GpuMesh::Streams::positions);
   };
   if (!programs.twoDraws) {
     for (const DrawItem& item : items) draw(item, &ReceiverPrograms::whole);
     return;
   }
-  // Casters are their own neighbours in the map, so the mask leaves nearly all their pixels to the filter: they
-  // are filtered at once and cover what lies behind them. Receivers that cast nothing are drawn twice: pixels
-  // that the mask decides write colour and depth; the second draw fails the depth test there and filters the
-  // rest.
+  // Casters are their own neighbours in the map, so the mask leaves nearly all their pixels to the filter:
+  // they are filtered at once and cover what lies behind them. Receivers that cast nothing are drawn twice:
+  // pixels that the mask decides write colour and depth; the second draw fails the depth test there and
+  // filters the rest.
   for (const DrawItem& item : items) {
     if (item.casts) draw(item, &ReceiverPrograms::filter);
   }
@@ -203,7 +213,8 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
 Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading) {
   std::vector<std::string> defines = shading.defines;
   defines.push_back("HS_FORWARD");
-  if (shading.usesFacetPlane && needsFacetStream(programs.capabilities())) defines.push_back("HS_FACET_NORMAL");
+  if (shading.usesFacetPlane && needsFacetStream(programs.capabilities()))
+    defines.push_back("HS_FACET_NORMAL");
   auto vertex = programs.assemble("forward.vert", defines);
   if (!vertex) return vertex.error();
   auto fragment = programs.assemble(shading.fragmentFile, defines);

@@ -43,7 +43,9 @@ struct ReceiverProgramSet {
   ReceiverPrograms byKind[2][2][2];
   bool twoDraws = false;
   ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.facets][kind.textured][kind.casting]; }
-  const ReceiverPrograms& of(const ReceiverKind& kind) const { return byKind[kind.facets][kind.textured][kind.casting]; }
+  const ReceiverPrograms& of(const ReceiverKind& kind) const {
+    return byKind[kind.facets][kind.textured][kind.casting];
+  }
 };
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
@@ -58,9 +60,9 @@ struct ReceiverTarget {
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.
 /// `shadingInputs`: of ReceiverOutput::shaded, else null.
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading, const ReceiverProgramSet& programs,
-                   const View& view, std::span<const DrawItem> items, const ShadingInputs* shadingInputs,
-                   const ReceiverTarget& target);
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
+                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* shadingInputs, const ReceiverTarget& target);
 
 /// Texts for a host's own shaders, see ForwardRecord. Errors: shaderFailed.
 struct ForwardTexts {

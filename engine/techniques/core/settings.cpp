@@ -32,24 +32,29 @@ Status Settings::set(std::string_view key, std::string_view value) {
     const std::string prefix(key.substr(0, key.find('.')));
     std::string known;
     for (const SettingInfo& candidate : declared_) {
-      const bool related = candidate.key.starts_with(prefix + ".") || candidate.key.find('.') == std::string::npos;
+      const bool related =
+          candidate.key.starts_with(prefix + ".") || candidate.key.find('.') == std::string::npos;
       if (related) known += (known.empty() ? "" : ", ") + candidate.key;
     }
-    return Error{ErrorCode::unknownSetting, "unknown setting \"" + std::string(key) + "\"; known here: " + known};
+    return Error{ErrorCode::unknownSetting,
+                 "unknown setting \"" + std::string(key) + "\"; known here: " + known};
   }
   if (info->type == SettingType::choice) {
     if (std::ranges::find(info->choices, value) == info->choices.end()) {
       std::string known;
       for (const std::string& choice : info->choices) known += (known.empty() ? "" : ", ") + choice;
-      return Error{ErrorCode::invalidArgument, info->key + "=" + std::string(value) + ": choose one of " + known};
+      return Error{ErrorCode::invalidArgument,
+                   info->key + "=" + std::string(value) + ": choose one of " + known};
     }
   } else {
     double parsed = 0;
-    const bool whole = info->type != SettingType::integer || (parse(value, parsed) && parsed == std::floor(parsed));
+    const bool whole =
+        info->type != SettingType::integer || (parse(value, parsed) && parsed == std::floor(parsed));
     if (!parse(value, parsed) || !whole || parsed < info->low || parsed > info->high) {
-      return Error{ErrorCode::invalidArgument, info->key + "=" + std::string(value) + ": give " +
-                                                   (info->type == SettingType::integer ? "a whole number" : "a number") +
-                                                   " from " + number(info->low) + " to " + number(info->high)};
+      return Error{ErrorCode::invalidArgument,
+                   info->key + "=" + std::string(value) + ": give " +
+                       (info->type == SettingType::integer ? "a whole number" : "a number") + " from " +
+                       number(info->low) + " to " + number(info->high)};
     }
   }
   std::string& stored = values_.find(key)->second;
@@ -72,9 +77,15 @@ double Settings::real(std::string_view key) const {
   return value;
 }
 
-int Settings::integer(std::string_view key) const { return static_cast<int>(std::lround(real(key))); }
-const std::string& Settings::choice(std::string_view key) const { return valueOf(key); }
-std::string Settings::text(std::string_view key) const { return valueOf(key); }
+int Settings::integer(std::string_view key) const {
+  return static_cast<int>(std::lround(real(key)));
+}
+const std::string& Settings::choice(std::string_view key) const {
+  return valueOf(key);
+}
+std::string Settings::text(std::string_view key) const {
+  return valueOf(key);
+}
 
 bool Settings::isDefault(std::string_view key) const {
   const auto info = std::ranges::find(declared_, key, &SettingInfo::key);

@@ -20,9 +20,9 @@ struct SettingInfo {
   std::string key;  ///< "pcf.size"; keys without a dot hold for every technique that uses them
   SettingType type = SettingType::real;
   std::string defaultValue;
-  double low = 0, high = 0;         ///< inclusive range of numbers
+  double low = 0, high = 0;          ///< inclusive range of numbers
   std::vector<std::string> choices;  ///< of a choice
-  std::string text;                 ///< one sentence, with the unit
+  std::string text;                  ///< one sentence, with the unit
 };
 
 /// Values by key, all valid. Keys are declared once by the registry.

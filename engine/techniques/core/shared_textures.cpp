@@ -14,12 +14,13 @@ std::vector<std::uint8_t> rampPixels() {
     for (int x = 0; x < 512; ++x) {
       int high = x >> 1;
       const bool upperHalf = (x & 1) != 0;
-      if (upperHalf && low < 64) ++high;    // low wrapped before x did
+      if (upperHalf && low < 64) ++high;     // low wrapped before x did
       if (!upperHalf && low >= 192) --high;  // x stepped before low wrapped
       int stored = low;
       if (high > 255) high = 255, stored = 255;
       if (high < 0) high = 0, stored = 0;
-      pixels.insert(pixels.end(), {static_cast<std::uint8_t>(high), static_cast<std::uint8_t>(stored), 0, 255});
+      pixels.insert(pixels.end(),
+                    {static_cast<std::uint8_t>(high), static_cast<std::uint8_t>(stored), 0, 255});
     }
   }
   return pixels;
@@ -30,7 +31,8 @@ Result<const gl::Texture*> SharedTextures::byteRamp(gl::Context& context) {
   if (!byteRamp_) {
     const std::vector<std::uint8_t> pixels = rampPixels();
     auto made = gl::Texture::create(
-        context, {.width = 512, .height = 256, .format = gl::TextureFormat::rgba8, .wrap = gl::TextureWrap::repeat},
+        context,
+        {.width = 512, .height = 256, .format = gl::TextureFormat::rgba8, .wrap = gl::TextureWrap::repeat},
         pixels.data());
     if (!made) return made.error();
     byteRamp_ = std::move(made).value();

@@ -24,7 +24,7 @@ namespace halfshadow::techniques {
 
 struct TechniqueInfo {
   std::string id;
-  std::string paper;          ///< author, year, section
+  std::string paper;  ///< author, year, section
   std::string summary;
   std::string guarantees;     ///< what holds exactly
   std::string knownFailures;  ///< what it gets wrong by construction
@@ -47,8 +47,8 @@ struct DrawItem {
   bool mirrored = false;  ///< the transform turns the winding round
 };
 
-/// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects around which the eye is
-/// outside. Halves rasterisation, which is most of the cost of dense meshes.
+/// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects around which the eye
+/// is outside. Halves rasterisation, which is most of the cost of dense meshes.
 gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld);
 
 /// The screen side of a frame.
@@ -84,9 +84,9 @@ struct LightFrame {
   std::span<const DrawItem> receivers;
   /// Objects that receive but cast nothing, for maps that hold the whole scene.
   std::span<const DrawItem> shadowlessReceivers;
-  std::uint64_t contentKey = 0;       ///< of light, casters and fit
-  std::uint64_t sceneKey = 0;         ///< the same with the receivers
-  std::string mapName;                ///< appended to the names of maps, for techniques with several a light
+  std::uint64_t contentKey = 0;  ///< of light, casters and fit
+  std::uint64_t sceneKey = 0;    ///< the same with the receivers
+  std::string mapName;           ///< appended to the names of maps, for techniques with several a light
   framegraph::Lifetime mapLifetime = framegraph::Lifetime::persistent;
   FilterSkip preferredSkip = FilterSkip::stencil;  ///< setting filter_skip: the device profile's choice
 };
@@ -108,12 +108,12 @@ struct ReceiverShading {
   std::vector<std::string> defines;  ///< of the variant
   std::vector<ReceiverTexture> textures;
   std::function<void(gl::Program&, gl::Context&)> setUniforms;
-  glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
+  glm::dmat4 mapFromWorld{1.0};  ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
   FilterSkip skip = FilterSkip::none;
-  bool usesFacetPlane = false;       ///< receiver-plane bias: by facet stream or by derivatives, per mesh
+  bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.
   enum class SelfReceivers { none, casting, all } selfReceivers = SelfReceivers::none;
-  bool forward = true;               ///< may be evaluated inside a host's own fragment shader
+  bool forward = true;  ///< may be evaluated inside a host's own fragment shader
 };
 
 class Technique {

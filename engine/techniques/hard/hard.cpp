@@ -9,12 +9,11 @@ namespace {
 class Hard final : public Technique {
  public:
   const TechniqueInfo& info() const override {
-    static const TechniqueInfo info{
-        .id = "hard",
-        .paper = "Williams 1978; Evans, Agenjo, Blat 2014, section 3.1",
-        .summary = "one depth comparison per pixel, seen from the light's centre",
-        .guarantees = "visibility is 0 or 1; no acne on closed casters at bias 1",
-        .knownFailures = "no penumbra; edges are as coarse as the map's texels"};
+    static const TechniqueInfo info{.id = "hard",
+                                    .paper = "Williams 1978; Evans, Agenjo, Blat 2014, section 3.1",
+                                    .summary = "one depth comparison per pixel, seen from the light's centre",
+                                    .guarantees = "visibility is 0 or 1; no acne on closed casters at bias 1",
+                                    .knownFailures = "no penumbra; edges are as coarse as the map's texels"};
     return info;
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
@@ -25,6 +24,8 @@ class Hard final : public Technique {
 };
 }  // namespace
 
-std::unique_ptr<Technique> makeHard() { return std::make_unique<Hard>(); }
+std::unique_ptr<Technique> makeHard() {
+  return std::make_unique<Hard>();
+}
 
 }  // namespace halfshadow::techniques

@@ -44,7 +44,8 @@ std::string poissonTapsDefine(int count) {
   std::string define = "HS_POISSON_TAPS(TAP)";
   for (const glm::vec2& point : poissonDisc(count)) {
     char tap[64];
-    std::snprintf(tap, sizeof tap, " TAP(%.4f, %.4f)", static_cast<double>(point.x), static_cast<double>(point.y));
+    std::snprintf(tap, sizeof tap, " TAP(%.4f, %.4f)", static_cast<double>(point.x),
+                  static_cast<double>(point.y));
     define += tap;
   }
   return define;

@@ -9,7 +9,8 @@
 namespace halfshadow::techniques {
 
 void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
-  framegraph::PassDesc pass{.name = filter.name, .stage = framegraph::PassStage::mask, .reads = {filter.source}};
+  framegraph::PassDesc pass{
+      .name = filter.name, .stage = framegraph::PassStage::mask, .reads = {filter.source}};
   pass.writes = {{.resource = filter.target, .initial = framegraph::InitialContent::dontCare}};
   pass.contentKey = filter.contentKey;
   pass.execute = [filter](framegraph::PassContext& context) {
@@ -18,16 +19,19 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     const float size = static_cast<float>(filter.sourceSize);
     filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, 0, 0));
     if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
-    const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler), &context.texture(filter.source)};
+    const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler),
+                                     &context.texture(filter.source)};
     encoder.bindTextures({&binding, 1});
     encoder.drawFullscreen({});
   };
   graph.addPass(std::move(pass));
 }
 
-Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth, double radiusTexels) {
+Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
+                                       double radiusTexels) {
   BlockBounds bounds{.radiusTexels = radiusTexels};
-  // Small blocks are tight but need a longer reach to cover the kernel; at most 9 x 9 fetches of a small image.
+  // Small blocks are tight but need a longer reach to cover the kernel; at most 9 x 9 fetches of a small
+  // image.
   constexpr int kLongestReach = 4;
   bounds.blockTexels = 4;
   while (bounds.blockTexels * kLongestReach < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
@@ -51,21 +55,33 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
                                                  .height = targetSize,
                                                  .lifetime = framegraph::Lifetime::persistent});
     const std::uint64_t key = planner::combineKeys(depth.contentKey, static_cast<std::uint64_t>(targetSize));
-    addFilterPass(frame.graph, {.name = name, .program = *program, .source = source, .target = target,
-                                .sourceSize = size, .contentKey = key, .sampler = "u_source"});
+    addFilterPass(frame.graph, {.name = name,
+                                .program = *program,
+                                .source = source,
+                                .target = target,
+                                .sourceSize = size,
+                                .contentKey = key,
+                                .sampler = "u_source"});
     source = target;
     size = targetSize;
     remaining /= factor;
     fromDepth = false;
   }
-  auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag", {"HS_REACH " + std::to_string(reach)}});
+  auto program =
+      frame.programs.get({"fullscreen.vert", "block_dilate.frag", {"HS_REACH " + std::to_string(reach)}});
   if (!program) return program.error();
   const std::string name = prefix + "dilated";
   bounds.map = frame.graph.addResource(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
-  const std::uint64_t key = planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
-  addFilterPass(frame.graph, {.name = name, .program = *program, .source = source, .target = bounds.map,
-                              .sourceSize = size, .contentKey = key, .sampler = "u_source"});
+  const std::uint64_t key =
+      planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
+  addFilterPass(frame.graph, {.name = name,
+                              .program = *program,
+                              .source = source,
+                              .target = bounds.map,
+                              .sourceSize = size,
+                              .contentKey = key,
+                              .sampler = "u_source"});
   return bounds;
 }
 
@@ -73,7 +89,8 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
   shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds.map});
   // A hundredth of a texel more than the kernel: rounding of the plane offset must not fall outside.
   const glm::vec4 mask(bounds.radiusTexels + 0.01, 0, 0, 0);
-  shading.setUniforms = [mask, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+  shading.setUniforms = [mask, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                       gl::Context& context) {
     inner(program, context);
     program.set(context, "u_mask", mask);
   };
@@ -89,8 +106,10 @@ Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, Receive
 }
 
 double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
-  const double farthest = 1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
-  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) * (farthest - space.nearestCasterDepth);
+  const double farthest =
+      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
+         (farthest - space.nearestCasterDepth);
 }
 
 }  // namespace halfshadow::techniques

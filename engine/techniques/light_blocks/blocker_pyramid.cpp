@@ -8,8 +8,8 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Where a level lies in the atlas: level 0 at (1, 1), the others stacked to its right, one empty texel around
-/// each. blocker_pyramid.glsl computes the same from the level's size.
+/// Where a level lies in the atlas: level 0 at (1, 1), the others stacked to its right, one empty texel
+/// around each. blocker_pyramid.glsl computes the same from the level's size.
 gl::Rect levelRect(int baseSize, int level) {
   const int side = baseSize >> level;
   if (level == 0) return {1, 1, side, side};
@@ -46,9 +46,13 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
   // Casters end at the far distance; empty texels are at 1. Half-way is as far as possible from both.
   const double empty = 0.5 * (space.farthestCasterDepth + 1.0) * unit;
   const glm::vec4 casterRange(space.nearestCasterDepth * unit, 1.0 / range, empty, 0);
-  addFilterPass(frame.graph, {.name = prefix + " occupancy", .program = *occupancy, .source = depth.map,
-                              .target = source, .sourceSize = space.mapSize,
-                              .contentKey = planner::combineKeys(depth.contentKey, 0x0cc0u), .sampler = "u_depthMap",
+  addFilterPass(frame.graph, {.name = prefix + " occupancy",
+                              .program = *occupancy,
+                              .source = depth.map,
+                              .target = source,
+                              .sourceSize = space.mapSize,
+                              .contentKey = planner::combineKeys(depth.contentKey, 0x0cc0u),
+                              .sampler = "u_depthMap",
                               .setUniforms = [casterRange](gl::Program& program, gl::Context& context) {
                                 program.set(context, "u_casterRange", casterRange);
                               }});
@@ -58,7 +62,8 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
                                            .height = base + 2 * pyramid.lastLevel + 2,
                                            .lifetime = framegraph::Lifetime::persistent,
                                            .filter = framegraph::Filter::linear});
-  framegraph::PassDesc pass{.name = prefix + " blocker pyramid", .stage = framegraph::PassStage::mask, .reads = {source}};
+  framegraph::PassDesc pass{
+      .name = prefix + " blocker pyramid", .stage = framegraph::PassStage::mask, .reads = {source}};
   pass.writes = {{.resource = pyramid.atlas}};
   pass.contentKey = planner::combineKeys(depth.contentKey, 0xa71a5u);
   pass.execute = [program = *copy, source, base, last = pyramid.lastLevel](framegraph::PassContext& context) {
@@ -82,9 +87,11 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
   const float height = static_cast<float>(pyramid.baseSize + 2 * pyramid.lastLevel + 2);
   const glm::vec4 layout(pyramid.baseSize, 1.0f / width, 1.0f / height, pyramid.lastLevel);
   const double unit = space.depthUnit;
-  const glm::vec4 range(space.nearestCasterDepth * unit, (space.farthestCasterDepth - space.nearestCasterDepth) * unit,
-                        pyramid.texelsPerBase, space.farthestCasterDepth * unit);
-  shading.setUniforms = [layout, range, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+  const glm::vec4 range(space.nearestCasterDepth * unit,
+                        (space.farthestCasterDepth - space.nearestCasterDepth) * unit, pyramid.texelsPerBase,
+                        space.farthestCasterDepth * unit);
+  shading.setUniforms = [layout, range, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                                gl::Context& context) {
     inner(program, context);
     program.set(context, "u_pyramidLayout", layout);
     program.set(context, "u_pyramidRange", range);
@@ -97,13 +104,14 @@ void addSelfReceiverSearch(const LightFrame& frame, const LightDepth& depth, Rec
   const MapSpace& space = depth.space;
   const double texelsPerStep = std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
                                (space.farthestCasterDepth - space.nearestCasterDepth) / 255.0;
-  // The benchmark scenes have at most 3 texels of width a step; a caster a hundred times nearer to the light than
-  // the others gives tens, and every penumbra would look hard.
+  // The benchmark scenes have at most 3 texels of width a step; a caster a hundred times nearer to the light
+  // than the others gives tens, and every penumbra would look hard.
   if (texelsPerStep <= 4.0) return;
   shading.selfReceivers = ReceiverShading::SelfReceivers::all;
-  frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " blocker means",
-                          "wide-depth-range: casters are both very near the light and far from it; blockers are "
-                          "searched by taps");
+  frame.graph.noteSkipped(
+      "light " + std::to_string(frame.lightIndex) + " blocker means",
+      "wide-depth-range: casters are both very near the light and far from it; blockers are "
+      "searched by taps");
 }
 
 }  // namespace halfshadow::techniques

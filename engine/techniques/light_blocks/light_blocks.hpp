@@ -39,8 +39,8 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
 /// Adds texture and uniforms to a receiver program that includes blocker_pyramid.glsl.
 void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const BlockerPyramid& pyramid);
 
-/// For techniques that take the mean blocker from the pyramid: receivers for which it misleads search by 4 x 4
-/// taps instead, enough to tell near blockers from far ones. Those are receivers that cast (a mean over a
+/// For techniques that take the mean blocker from the pyramid: receivers for which it misleads search by 4 x
+/// 4 taps instead, enough to tell near blockers from far ones. Those are receivers that cast (a mean over a
 /// region takes their own surface for a blocker), and all receivers where casters spread over such a range of
 /// depth that the pyramid's 8 bits no longer tell their penumbrae apart.
 void addSelfReceiverSearch(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);

@@ -12,8 +12,9 @@ using framegraph::Format;
 using framegraph::ResourceDesc;
 
 /// Writes of the depth pass; the last sampled one is the map.
-std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string& name, int size, DepthStorage storage,
-                                     framegraph::Lifetime lifetime, float emptyDepth, framegraph::ResourceId& map) {
+std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string& name, int size,
+                                     DepthStorage storage, framegraph::Lifetime lifetime, float emptyDepth,
+                                     framegraph::ResourceId& map) {
   const bool isTexture = storage == DepthStorage::texture24 || storage == DepthStorage::texture16;
   ResourceDesc desc{.name = name, .width = size, .height = size, .lifetime = lifetime};
   if (isTexture) {
@@ -27,7 +28,9 @@ std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string
                                         .height = size,
                                         .format = Format::depth24,
                                         .storage = framegraph::Storage::renderbuffer});
-  return {{.resource = map, .point = AttachmentPoint::color, .clear = {.color = {emptyDepth, emptyDepth, emptyDepth, 1}}},
+  return {{.resource = map,
+           .point = AttachmentPoint::color,
+           .clear = {.color = {emptyDepth, emptyDepth, emptyDepth, 1}}},
           {.resource = depth, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
 }
 
@@ -40,7 +43,8 @@ void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space
     const gl::Cull hidden = hiddenFaces(item, space.originWorld);
     const gl::Cull turned = hidden == gl::Cull::back ? gl::Cull::front : gl::Cull::back;
     state.cull = hidden == gl::Cull::none ? hidden : farthest ? hidden : turned;
-    program.set(encoder.context(), "u_mapClipFromObject", glm::mat4(space.mapClipFromWorld * item.worldFromObject));
+    program.set(encoder.context(), "u_mapClipFromObject",
+                glm::mat4(space.mapClipFromWorld * item.worldFromObject));
     item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
   }
 }
@@ -54,9 +58,15 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   const bool all = content == MapContent::castersAndReceivers;
   const bool farthest = content == MapContent::castersFarthest;
   const bool keyed = frame.mapLifetime == framegraph::Lifetime::persistent;
-  depth.contentKey = !keyed ? 0 : planner::combineKeys(all ? frame.sceneKey : frame.contentKey,
-                                          static_cast<std::uint64_t>(depth.storage) * 4 + static_cast<std::uint64_t>(content));
-  const std::string name = "light " + std::to_string(frame.lightIndex) + (all ? " depth with receivers" : farthest ? " farthest depth" : " depth") + frame.mapName;
+  depth.contentKey = !keyed ? 0
+                            : planner::combineKeys(all ? frame.sceneKey : frame.contentKey,
+                                                   static_cast<std::uint64_t>(depth.storage) * 4 +
+                                                       static_cast<std::uint64_t>(content));
+  const std::string name = "light " + std::to_string(frame.lightIndex) +
+                           (all        ? " depth with receivers"
+                            : farthest ? " farthest depth"
+                                       : " depth") +
+                           frame.mapName;
 
   const gl::Texture* ramp = nullptr;
   if (depth.storage == DepthStorage::packed16) {
@@ -68,11 +78,13 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   if (!program) return program.error();
 
   framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::light};
-  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime, farthest ? 0.0f : 1.0f, depth.map);
+  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime,
+                             farthest ? 0.0f : 1.0f, depth.map);
   pass.contentKey = depth.contentKey;
   std::vector<DrawItem> items(frame.casters.begin(), frame.casters.end());
   if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
-  pass.execute = [program = *program, ramp, space = depth.space, content, items = std::move(items)](framegraph::PassContext& context) {
+  pass.execute = [program = *program, ramp, space = depth.space, content,
+                  items = std::move(items)](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
     program->set(encoder.context(), "u_nearDistance", 1.0f);
@@ -86,7 +98,8 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   return depth;
 }
 
-ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth, std::string fragmentFile) {
+ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth,
+                                   std::string fragmentFile) {
   ReceiverShading shading;
   shading.fragmentFile = std::move(fragmentFile);
   shading.defines = depthDefines(depth.storage);
@@ -96,7 +109,8 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   shading.usesFacetPlane = true;
   shading.textures = {{.sampler = "u_depthMap", .resource = depth.map}};
   if (depth.storage == DepthStorage::packed16) {
-    if (auto ramp = frame.shared.byteRamp(frame.context)) shading.textures.push_back({.sampler = "u_byteRamp", .texture = *ramp});
+    if (auto ramp = frame.shared.byteRamp(frame.context))
+      shading.textures.push_back({.sampler = "u_byteRamp", .texture = *ramp});
   }
   const MapSpace& space = depth.space;
   const double knob = frame.settings.real("bias");
@@ -118,9 +132,11 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
 }
 
 void addPenumbraScale(ReceiverShading& shading, const MapSpace& space) {
-  const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit, space.nearestCasterDepth * space.depthUnit,
+  const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
+                           space.nearestCasterDepth * space.depthUnit,
                            space.farthestCasterDepth * space.depthUnit);
-  shading.setUniforms = [penumbra, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+  shading.setUniforms = [penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                           gl::Context& context) {
     inner(program, context);
     program.set(context, "u_penumbra", penumbra);
   };

@@ -22,15 +22,17 @@ enum class DepthStorage {
 DepthStorage depthStorageFor(const gl::Capabilities& capabilities);
 const char* depthStorageName(DepthStorage storage);
 
-/// The map's space. Stored depth d = 1 - near/z: affine in reciprocal distance, so that planes stay planes over
-/// the map; 0 at the near distance, 1 infinitely far, where empty texels are: a receiver is never beyond them.
+/// The map's space. Stored depth d = 1 - near/z: affine in reciprocal distance, so that planes stay planes
+/// over the map; 0 at the near distance, 1 infinitely far, where empty texels are: a receiver is never beyond
+/// them.
 struct MapSpace {
-  glm::dmat4 mapFromWorld{1.0};      ///< world -> (s·z, t·z, d·z, z), s and t in [0, 1] over the map, z in near distances
+  glm::dmat4 mapFromWorld{
+      1.0};  ///< world -> (s·z, t·z, d·z, z), s and t in [0, 1] over the map, z in near distances
   glm::dmat4 mapClipFromWorld{1.0};  ///< the same as OpenGL clip coordinates
   glm::dvec3 originWorld{0.0};       ///< the point that the map is seen from
   double nearDistance = 1.0;
-  double depthUnit = 1.0;            ///< 1, or 256 without highp: shaders count depth in 1/depthUnit of the range
-  double quantum = 0.0;              ///< storage step plus rasterisation error, share of the range
+  double depthUnit = 1.0;  ///< 1, or 256 without highp: shaders count depth in 1/depthUnit of the range
+  double quantum = 0.0;    ///< storage step plus rasterisation error, share of the range
   double nearestCasterDepth = 0.0, farthestCasterDepth = 1.0;  ///< share of the range
   glm::dvec2 kernelTexelsPerDepth{0.0};  ///< light side in texels per unit of depth difference, both axes
   int mapSize = 1;
@@ -58,7 +60,8 @@ std::vector<std::string> depthDefines(DepthStorage storage);
 
 /// A receiver program that samples the map: defines, textures and uniforms common to all map techniques.
 /// `fragmentFile` and technique defines are the caller's.
-ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth, std::string fragmentFile);
+ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth,
+                                   std::string fragmentFile);
 
 /// Adds u_penumbra: kernel width in texels per unit of depth difference along both axes, and the depth of the
 /// nearest caster.

@@ -15,10 +15,14 @@ DepthStorage depthStorageFor(const gl::Capabilities& capabilities) {
 
 const char* depthStorageName(DepthStorage storage) {
   switch (storage) {
-    case DepthStorage::texture24: return "depth texture, 24 bits";
-    case DepthStorage::texture16: return "depth texture, 16 bits";
-    case DepthStorage::packed24: return "RGBA8, 24 bits packed";
-    case DepthStorage::packed16: return "RGBA8, 16 bits by ramp (no fragment highp)";
+    case DepthStorage::texture24:
+      return "depth texture, 24 bits";
+    case DepthStorage::texture16:
+      return "depth texture, 16 bits";
+    case DepthStorage::packed24:
+      return "RGBA8, 24 bits packed";
+    case DepthStorage::packed16:
+      return "RGBA8, 16 bits by ramp (no fragment highp)";
   }
   return "";
 }
@@ -55,13 +59,15 @@ MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage) {
     clipFromMap[3][axis] = -1.0;
   }
   clipFromMap[3][3] = 1.0;
-  // In units of the near distance: z begins at 1 however large the world is, and fp16 fragments keep their digits.
+  // In units of the near distance: z begins at 1 however large the world is, and fp16 fragments keep their
+  // digits.
   space.mapFromWorld = (mapFromLight / fit.nearDistance) * fit.lightFromWorld;
   space.mapClipFromWorld = clipFromMap * space.mapFromWorld;
   // 1/zb - 1/zr = (dr - db) / near; the light's side L spans f·L·(1/zb - 1/zr) texels.
   space.kernelTexelsPerDepth = fit.texelsPerTangent() * (2.0 * fit.halfSize) / fit.nearDistance;
-  // A point light still has receivers behind casters: techniques take a width of 0 for "nothing in front". Depths
-  // differ by less than 1, so this stays below a texel, the width of every technique's narrowest kernel.
+  // A point light still has receivers behind casters: techniques take a width of 0 for "nothing in front".
+  // Depths differ by less than 1, so this stays below a texel, the width of every technique's narrowest
+  // kernel.
   space.kernelTexelsPerDepth = glm::max(space.kernelTexelsPerDepth, glm::dvec2(1.0));
   return space;
 }

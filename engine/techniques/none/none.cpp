@@ -14,10 +14,14 @@ class None final : public Technique {
                                     .knownFailures = "every shadow is missing"};
     return info;
   }
-  Result<ReceiverShading> declare(const LightFrame&) override { return ReceiverShading{.fragmentFile = "none.frag"}; }
+  Result<ReceiverShading> declare(const LightFrame&) override {
+    return ReceiverShading{.fragmentFile = "none.frag"};
+  }
 };
 }  // namespace
 
-std::unique_ptr<Technique> makeNone() { return std::make_unique<None>(); }
+std::unique_ptr<Technique> makeNone() {
+  return std::make_unique<None>();
+}
 
 }  // namespace halfshadow::techniques

@@ -10,10 +10,28 @@ namespace halfshadow::techniques {
 namespace {
 
 std::vector<SettingInfo> kernelSettings(const std::string& id) {
-  return {{id + ".size", SettingType::integer, "4", 2, 17, {}, "kernel side in texels (grid), disc diameter (poisson)"},
-          {id + ".pattern", SettingType::choice, "grid", 0, 0, {"grid", "poisson"}, "size x size grid, or a Poisson disc"},
+  return {{id + ".size",
+           SettingType::integer,
+           "4",
+           2,
+           17,
+           {},
+           "kernel side in texels (grid), disc diameter (poisson)"},
+          {id + ".pattern",
+           SettingType::choice,
+           "grid",
+           0,
+           0,
+           {"grid", "poisson"},
+           "size x size grid, or a Poisson disc"},
           {id + ".taps", SettingType::integer, "16", 4, 64, {}, "taps of the Poisson disc"},
-          {id + ".rotate", SettingType::choice, "off", 0, 0, {"off", "on"}, "turn the Poisson disc from pixel to pixel"}};
+          {id + ".rotate",
+           SettingType::choice,
+           "off",
+           0,
+           0,
+           {"off", "on"},
+           "turn the Poisson disc from pixel to pixel"}};
 }
 
 /// Radius in texels beyond which the kernel takes no tap, texel centring included.
@@ -36,7 +54,8 @@ ReceiverShading kernelShading(const LightFrame& frame, const LightDepth& depth, 
   shading.defines.push_back(poissonTapsDefine(taps));
   if (settings.choice(id + ".rotate") == "on") shading.defines.push_back("HS_ROTATE");
   const glm::vec4 poisson(0.5 * settings.integer(id + ".size"), 0, 0, 0);
-  shading.setUniforms = [poisson, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+  shading.setUniforms = [poisson, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                          gl::Context& context) {
     inner(program, context);
     program.set(context, "u_poisson", poisson);
   };
@@ -75,10 +94,21 @@ class PcfMasked final : public Technique {
   }
   std::vector<SettingInfo> settings() const override {
     auto settings = kernelSettings("pcf-masked");
-    settings.push_back({"pcf-masked.mask", SettingType::choice, "minmax", 0, 0, {"minmax", "laplacian5", "laplacian9"},
+    settings.push_back({"pcf-masked.mask",
+                        SettingType::choice,
+                        "minmax",
+                        0,
+                        0,
+                        {"minmax", "laplacian5", "laplacian9"},
                         "conservative block bounds, or the paper's edge filter of 5 or 9 taps"});
-    settings.push_back({"pcf-masked.skip", SettingType::choice, "auto", 0, 0, {"branch", "loop", "stencil", "auto"},
-                        "how unfiltered pixels skip the taps; auto: what the device profile measured as fastest"});
+    settings.push_back(
+        {"pcf-masked.skip",
+         SettingType::choice,
+         "auto",
+         0,
+         0,
+         {"branch", "loop", "stencil", "auto"},
+         "how unfiltered pixels skip the taps; auto: what the device profile measured as fastest"});
     return settings;
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
@@ -92,7 +122,8 @@ class PcfMasked final : public Technique {
       if (!bounds) return bounds.error();
       addBlockMask(shading, *bounds);
     } else {
-      const EdgeFilter filter = settings.choice("pcf-masked.mask") == "laplacian5" ? EdgeFilter::laplacian5 : EdgeFilter::laplacian9;
+      const EdgeFilter filter = settings.choice("pcf-masked.mask") == "laplacian5" ? EdgeFilter::laplacian5
+                                                                                   : EdgeFilter::laplacian9;
       auto mask = declareEdgeMask(frame, *depth, {.filter = filter, .radiusTexels = radius});
       if (!mask) return mask.error();
       shading.defines.push_back("HS_MASK_EDGES");
@@ -110,7 +141,11 @@ class PcfMasked final : public Technique {
 
 }  // namespace
 
-std::unique_ptr<Technique> makePcf() { return std::make_unique<Pcf>(); }
-std::unique_ptr<Technique> makePcfMasked() { return std::make_unique<PcfMasked>(); }
+std::unique_ptr<Technique> makePcf() {
+  return std::make_unique<Pcf>();
+}
+std::unique_ptr<Technique> makePcfMasked() {
+  return std::make_unique<PcfMasked>();
+}
 
 }  // namespace halfshadow::techniques

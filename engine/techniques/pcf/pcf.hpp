@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Percentage closer filtering with a fixed kernel, grid or Poisson disc (Reeves et al. 1987; Evans 2014, 3.2).
+/// Percentage closer filtering with a fixed kernel, grid or Poisson disc (Reeves et al. 1987; Evans
+/// 2014, 3.2).
 #pragma once
 
 #include "techniques/core/technique.hpp"

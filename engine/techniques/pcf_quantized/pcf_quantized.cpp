@@ -29,20 +29,43 @@ class PcfQuantized final : public Technique {
         .paper = "Evans, Agenjo, Blat 2014, section 4.4; bands in reciprocal depth: Halfshadow",
         .summary = "few kernel sizes, chosen per pixel by the quantised width of the penumbra",
         .guarantees = "regions without casters cost two fetches",
-        .knownFailures = "a visible step where bands meet; preset=paper: corners and inner edges pick the wrong band"};
+        .knownFailures =
+            "a visible step where bands meet; preset=paper: corners and inner edges pick the wrong band"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
-    return {{"pcf-quantized.preset", SettingType::choice, "tuned", 0, 0, {"paper", "tuned"},
+    return {{"pcf-quantized.preset",
+             SettingType::choice,
+             "tuned",
+             0,
+             0,
+             {"paper", "tuned"},
              "paper: Laplacian strength in three channels; tuned: width by averaged blockers"},
-            {"pcf-quantized.kernels", SettingType::choice, "3/5/7", 0, 0, {"2/3/5", "3/5/7", "5/7/9"},
+            {"pcf-quantized.kernels",
+             SettingType::choice,
+             "3/5/7",
+             0,
+             0,
+             {"2/3/5", "3/5/7", "5/7/9"},
              "taps per side of the three kernels"},
-            {"pcf-quantized.bands", SettingType::integer, "8", 3, 16, {}, "bands of the penumbra's width (tuned)"},
-            {"pcf-quantized.filter", SettingType::choice, "laplacian5", 0, 0, {"laplacian5", "laplacian9"},
+            {"pcf-quantized.bands",
+             SettingType::integer,
+             "8",
+             3,
+             16,
+             {},
+             "bands of the penumbra's width (tuned)"},
+            {"pcf-quantized.filter",
+             SettingType::choice,
+             "laplacian5",
+             0,
+             0,
+             {"laplacian5", "laplacian9"},
              "edge filter of preset=paper"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    return frame.settings.choice("pcf-quantized.preset") == "paper" ? declarePaper(frame) : declareTuned(frame);
+    return frame.settings.choice("pcf-quantized.preset") == "paper" ? declarePaper(frame)
+                                                                    : declareTuned(frame);
   }
 
  private:
@@ -53,13 +76,14 @@ class PcfQuantized final : public Technique {
     const auto sides = kernelSides(frame.settings.choice("pcf-quantized.kernels"));
     // The paper's thresholds .2, .5, .8 are kept; the strength is scaled so that 1 is the depth step whose
     // penumbra is as wide as the largest kernel.
-    const double strength = std::max(depth->space.kernelTexelsPerDepth.x, depth->space.kernelTexelsPerDepth.y) / sides[2];
-    auto mask = declareEdgeMask(frame, *depth,
-                                {.filter = frame.settings.choice("pcf-quantized.filter") == "laplacian9"
-                                               ? EdgeFilter::laplacian9
-                                               : EdgeFilter::laplacian5,
-                                 .radiusTexels = 0.5 * sides[2],
-                                 .strengthPerDepth = std::max(strength, 1e-6)});
+    const double strength =
+        std::max(depth->space.kernelTexelsPerDepth.x, depth->space.kernelTexelsPerDepth.y) / sides[2];
+    auto mask = declareEdgeMask(
+        frame, *depth,
+        {.filter = frame.settings.choice("pcf-quantized.filter") == "laplacian9" ? EdgeFilter::laplacian9
+                                                                                 : EdgeFilter::laplacian5,
+         .radiusTexels = 0.5 * sides[2],
+         .strengthPerDepth = std::max(strength, 1e-6)});
     if (!mask) return mask.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized_paper.frag");
     addEdgeMask(shading, *mask);
@@ -80,17 +104,19 @@ class PcfQuantized final : public Technique {
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
-    // Bands half an octave apart, from the widest penumbra that this frame can have downwards. A caster close to
-    // the light makes that width huge and rare: then the same bands are spread down to two texels.
+    // Bands half an octave apart, from the widest penumbra that this frame can have downwards. A caster close
+    // to the light makes that width huge and rare: then the same bands are spread down to two texels.
     const MapSpace& space = depth->space;
     const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
     const int bands = frame.settings.integer("pcf-quantized.bands");
     const double octavesApart = widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 0.5;
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
-    const double aspect = space.kernelTexelsPerDepth.x > 0 ? space.kernelTexelsPerDepth.y / space.kernelTexelsPerDepth.x : 1.0;
+    const double aspect =
+        space.kernelTexelsPerDepth.x > 0 ? space.kernelTexelsPerDepth.y / space.kernelTexelsPerDepth.x : 1.0;
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, aspect);
-    shading.setUniforms = [bandUniform, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    shading.setUniforms = [bandUniform, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                                gl::Context& context) {
       inner(program, context);
       program.set(context, "u_bands", bandUniform);
     };
@@ -100,7 +126,8 @@ class PcfQuantized final : public Technique {
   static void addKernels(ReceiverShading& shading, const std::array<int, 3>& sides) {
     shading.defines.push_back("HS_SPREAD_KERNEL " + std::to_string(sides[2]));
     const glm::vec4 kernels(sides[0], sides[1], sides[2], 0);
-    shading.setUniforms = [kernels, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    shading.setUniforms = [kernels, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                            gl::Context& context) {
       inner(program, context);
       program.set(context, "u_kernels", kernels);
     };
@@ -109,6 +136,8 @@ class PcfQuantized final : public Technique {
 
 }  // namespace
 
-std::unique_ptr<Technique> makePcfQuantized() { return std::make_unique<PcfQuantized>(); }
+std::unique_ptr<Technique> makePcfQuantized() {
+  return std::make_unique<PcfQuantized>();
+}
 
 }  // namespace halfshadow::techniques

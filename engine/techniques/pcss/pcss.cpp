@@ -14,7 +14,8 @@ class Pcss final : public Technique {
         .paper = "Fernando 2005; Evans, Agenjo, Blat 2014, section 3.2",
         .summary = "blocker search by taps, then a filter as wide as the penumbra",
         .guarantees = "umbra and lit regions are exact where the search region holds one kind of texel",
-        .knownFailures = "one depth layer and one mean blocker: occluders at several heights share one width"};
+        .knownFailures =
+            "one depth layer and one mean blocker: occluders at several heights share one width"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -34,6 +35,8 @@ class Pcss final : public Technique {
 };
 }  // namespace
 
-std::unique_ptr<Technique> makePcss() { return std::make_unique<Pcss>(); }
+std::unique_ptr<Technique> makePcss() {
+  return std::make_unique<Pcss>();
+}
 
 }  // namespace halfshadow::techniques

@@ -12,9 +12,12 @@ class PcssMip final : public Technique {
     static const TechniqueInfo info{
         .id = "pcss-mip",
         .paper = "Fernando 2005, with the blocker search replaced (Halfshadow)",
-        .summary = "blocker search by two trilinear fetches of an occupancy pyramid, then a filter as wide as the penumbra",
+        .summary =
+            "blocker search by two trilinear fetches of an occupancy pyramid, then a filter as wide as the "
+            "penumbra",
         .guarantees = "regions without casters cost two fetches",
-        .knownFailures = "on receivers that are in the map themselves the mean blocker includes their own surface"};
+        .knownFailures =
+            "on receivers that are in the map themselves the mean blocker includes their own surface"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -36,6 +39,8 @@ class PcssMip final : public Technique {
 };
 }  // namespace
 
-std::unique_ptr<Technique> makePcssMip() { return std::make_unique<PcssMip>(); }
+std::unique_ptr<Technique> makePcssMip() {
+  return std::make_unique<PcssMip>();
+}
 
 }  // namespace halfshadow::techniques

@@ -17,8 +17,8 @@ namespace halfshadow::techniques {
 
 std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
-  for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip, makeVsm,
-                          makeOcclusionTextures, makeShadowWidth, makeSampled}) {
+  for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip,
+                          makeVsm, makeOcclusionTextures, makeShadowWidth, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;
@@ -27,9 +27,19 @@ std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
 std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique>>& techniques) {
   std::vector<SettingInfo> settings = {
       {"map_size", SettingType::integer, "1024", 16, 8192, {}, "side of depth maps in texels"},
-      {"bias", SettingType::real, "1.0", 0, 16, {},
+      {"bias",
+       SettingType::real,
+       "1.0",
+       0,
+       16,
+       {},
        "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"},
-      {"filter_skip", SettingType::choice, "stencil", 0, 0, {"branch", "loop", "stencil"},
+      {"filter_skip",
+       SettingType::choice,
+       "stencil",
+       0,
+       0,
+       {"branch", "loop", "stencil"},
        "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));

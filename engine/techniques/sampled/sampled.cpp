@@ -13,7 +13,8 @@ namespace {
 constexpr int kSamplesPerChannel = 250;
 
 /// Points of the light, a and b in [-1, 1]: a rank-1 lattice, evenly spread for every count.
-/// Based on: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (generalised golden ratio).
+/// Based on: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (generalised golden
+/// ratio).
 glm::dvec2 samplePoint(int index) {
   const double x = std::fmod(0.5 + 0.7548776662466927 * (index + 1), 1.0);
   const double y = std::fmod(0.5 + 0.5698402909980532 * (index + 1), 1.0);
@@ -32,14 +33,23 @@ class Sampled final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override {
-    return {{"sampled.samples", SettingType::integer, "64", 1, 1000, {}, "points of the light, one depth map each"}};
+    return {{"sampled.samples",
+             SettingType::integer,
+             "64",
+             1,
+             1000,
+             {},
+             "points of the light, one depth map each"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     const int samples = frame.settings.integer("sampled.samples");
     const std::string prefix = "light " + std::to_string(frame.lightIndex);
     const int width = frame.view.width, height = frame.view.height;
-    const auto counts = frame.graph.addResource({.name = prefix + " sample counts", .width = width, .height = height});
-    const auto depthTest = frame.graph.addResource({.name = prefix + " sample depth test", .width = width, .height = height,
+    const auto counts =
+        frame.graph.addResource({.name = prefix + " sample counts", .width = width, .height = height});
+    const auto depthTest = frame.graph.addResource({.name = prefix + " sample depth test",
+                                                    .width = width,
+                                                    .height = height,
                                                     .format = framegraph::Format::depth24,
                                                     .storage = framegraph::Storage::renderbuffer});
     for (int i = 0; i < samples; ++i) {
@@ -63,7 +73,8 @@ class Sampled final : public Technique {
     const glm::dvec2 at = samplePoint(index);
     point.centerWorld += at.x * frame.light.halfU + at.y * frame.light.halfV;
     point.halfU = point.halfV = glm::dvec3(0.0);
-    const planner::LightFit fit = planner::fitLight(point, frame.casterPointsWorld, {.mapSize = frame.fit.mapSize});
+    const planner::LightFit fit =
+        planner::fitLight(point, frame.casterPointsWorld, {.mapSize = frame.fit.mapSize});
     LightFrame sample = frame;
     sample.fit = fit;
     sample.mapName = " sample " + std::to_string(index);
@@ -76,18 +87,21 @@ class Sampled final : public Technique {
     auto programs = receiverPrograms(frame.programs, shading, ReceiverOutput::visibility, frame.receivers);
     if (!programs) return programs.error();
 
-    framegraph::PassDesc pass{.name = "light " + std::to_string(frame.lightIndex) + " count sample " + std::to_string(index),
-                              .stage = framegraph::PassStage::light,
-                              .reads = resourcesRead(shading)};
+    framegraph::PassDesc pass{
+        .name = "light " + std::to_string(frame.lightIndex) + " count sample " + std::to_string(index),
+        .stage = framegraph::PassStage::light,
+        .reads = resourcesRead(shading)};
     const auto initial = index == 0 ? framegraph::InitialContent::clear : framegraph::InitialContent::keep;
     pass.writes = {{.resource = counts, .point = framegraph::AttachmentPoint::color, .initial = initial},
                    {.resource = depthTest, .point = framegraph::AttachmentPoint::depth, .initial = initial}};
-    if (index > 0) pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
+    if (index > 0)
+      pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
     ReceiverTarget target{.depthIsComplete = true, .additive = true};
     target.colorMask.fill(false);
     target.colorMask[static_cast<std::size_t>(index / kSamplesPerChannel)] = true;
     pass.execute = [shading, programs = *programs, &view = frame.view, target, first = index == 0,
-                    items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](framegraph::PassContext& context) {
+                    items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
+                       framegraph::PassContext& context) {
       // Depth first: what is covered later must not have been counted.
       if (first) {
         const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}};
@@ -101,6 +115,8 @@ class Sampled final : public Technique {
 };
 }  // namespace
 
-std::unique_ptr<Technique> makeSampled() { return std::make_unique<Sampled>(); }
+std::unique_ptr<Technique> makeSampled() {
+  return std::make_unique<Sampled>();
+}
 
 }  // namespace halfshadow::techniques

@@ -15,12 +15,19 @@ class Vsm final : public Technique {
         .paper = "Donnelly, Lauritzen 2006; Evans, Agenjo, Blat 2014, sections 3.2 and 4.2",
         .summary = "mean and variance of depth, blurred once, bound the lit share",
         .guarantees = "never darker than the blurred comparison it bounds",
-        .knownFailures = "light bleeds where occluders overlap; with 8-bit moments also wherever caster and receiver are close"};
+        .knownFailures =
+            "light bleeds where occluders overlap; with 8-bit moments also wherever caster and receiver are "
+            "close"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
     return {{"vsm.size", SettingType::integer, "7", 1, 33, {}, "side of the box blur in texels"},
-            {"vsm.storage", SettingType::choice, "16", 0, 0, {"8", "16"},
+            {"vsm.storage",
+             SettingType::choice,
+             "16",
+             0,
+             0,
+             {"8", "16"},
              "bits per moment: 8 is what the paper's device had, 16 packs two bytes"}};
   }
   Support support(const gl::Capabilities& capabilities) const override {
@@ -50,30 +57,39 @@ class Vsm final : public Technique {
     auto blur = frame.programs.get({"fullscreen.vert", "vsm_blur.frag", blurDefines});
     if (!blur) return blur.error();
 
-    std::uint64_t key = planner::combineKeys(depth->contentKey, (bytes ? 0x8u : 0x16u) + 256u * frame.settings.integer("vsm.size"));
+    std::uint64_t key = planner::combineKeys(
+        depth->contentKey, (bytes ? 0x8u : 0x16u) + 256u * frame.settings.integer("vsm.size"));
     framegraph::ResourceId source = depth->map;
     const char* names[] = {" moments", " moments blurred along s", " moments blurred"};
     for (int step = 0; step < 3; ++step) {
       const std::string name = "light " + std::to_string(frame.lightIndex) + names[step];
       const bool last = step == 2;
       const auto target = frame.graph.addResource(
-          {.name = name, .width = space.mapSize, .height = space.mapSize,
+          {.name = name,
+           .width = space.mapSize,
+           .height = space.mapSize,
            .lifetime = framegraph::Lifetime::persistent,
            .filter = last && bytes ? framegraph::Filter::linear : framegraph::Filter::nearest});
       const glm::vec4 direction(step == 1 ? 1 : 0, step == 2 ? 1 : 0, 0, 0);
-      addFilterPass(frame.graph, {.name = name, .program = step == 0 ? *moments : *blur, .source = source, .target = target,
-                                  .sourceSize = space.mapSize, .contentKey = planner::combineKeys(key, step),
-                                  .sampler = step == 0 ? gl::UniformKey("u_depthMap") : gl::UniformKey("u_source"),
-                                  .setUniforms = [range, direction](gl::Program& program, gl::Context& context) {
-                                    program.set(context, "u_momentRange", range);
-                                    program.set(context, "u_direction", direction);
-                                  }});
+      addFilterPass(frame.graph,
+                    {.name = name,
+                     .program = step == 0 ? *moments : *blur,
+                     .source = source,
+                     .target = target,
+                     .sourceSize = space.mapSize,
+                     .contentKey = planner::combineKeys(key, step),
+                     .sampler = step == 0 ? gl::UniformKey("u_depthMap") : gl::UniformKey("u_source"),
+                     .setUniforms = [range, direction](gl::Program& program, gl::Context& context) {
+                       program.set(context, "u_momentRange", range);
+                       program.set(context, "u_direction", direction);
+                     }});
       source = target;
     }
     ReceiverShading shading = mapReceiverShading(frame, *depth, "vsm.frag");
     shading.textures[0] = {.sampler = "u_moments", .resource = source};
     shading.defines.insert(shading.defines.end(), storage.begin(), storage.end());
-    shading.setUniforms = [range, inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
+    shading.setUniforms = [range, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                          gl::Context& context) {
       inner(program, context);
       program.set(context, "u_momentRange", range);
     };
@@ -82,6 +98,8 @@ class Vsm final : public Technique {
 };
 }  // namespace
 
-std::unique_ptr<Technique> makeVsm() { return std::make_unique<Vsm>(); }
+std::unique_ptr<Technique> makeVsm() {
+  return std::make_unique<Vsm>();
+}
 
 }  // namespace halfshadow::techniques
