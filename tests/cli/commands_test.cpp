@@ -79,7 +79,7 @@ TEST_F(CliTest, ValidateTellsClosedFromOpen) {
   EXPECT_FALSE(sheets["techniques"].empty());
   const ProcessResult text = run({"validate", "builtin:sheets"});
   EXPECT_EQ(text.status, 0);
-  EXPECT_NE(text.output.find("shadow-volume"), std::string::npos);
+  EXPECT_NE(text.output.find("boundaries count as silhouette"), std::string::npos);
 }
 
 TEST_F(CliTest, ReferenceAndCompareAgreeWithThemselves) {
