@@ -62,12 +62,14 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
   return techniques::ReceiverOutput::visibility;
 }
 
+/// Three points a triangle, in order: techniques read them as triangles. Each vertex is transformed once.
 void appendPoints(const EngineObject& object, std::vector<glm::dvec3>& points) {
-  for (const std::uint32_t index : object.mesh.indices) {
-    // Only the first use of a vertex matters; consecutive triangles share most, so a cheap filter suffices.
-    points.push_back(
-        glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(object.mesh.positions[index]), 1.0)));
+  std::vector<glm::dvec3> verticesWorld;
+  verticesWorld.reserve(object.mesh.positions.size());
+  for (const glm::vec3& position : object.mesh.positions) {
+    verticesWorld.push_back(glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(position), 1.0)));
   }
+  for (const std::uint32_t index : object.mesh.indices) points.push_back(verticesWorld[index]);
 }
 
 framegraph::ClearValue clearColor(float r, float g, float b, float a) {

@@ -42,13 +42,13 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
   }
   const auto width = static_cast<std::size_t>(desc.baseColorWidth),
              height = static_cast<std::size_t>(desc.baseColorHeight);
-  // Rows bottom first, alpha dropped: shadows of cut-out materials are not supported.
+  // Rows stay as they are, since texture coordinates count from the top left; alpha is dropped: shadows of
+  // cut-out materials are not supported.
   std::vector<std::uint8_t> rgba(width * height * 4);
   for (std::size_t y = 0; y < height; ++y) {
     for (std::size_t x = 0; x < width; ++x) {
       const std::uint8_t* source =
           desc.baseColorPixels + (y * width + x) * static_cast<std::size_t>(channels);
-      // glTF's texture origin is the top left, so row 0 stays first.
       std::uint8_t* target = rgba.data() + (y * width + x) * 4;
       target[0] = source[0], target[1] = source[1], target[2] = source[2], target[3] = 255;
     }

@@ -12,26 +12,25 @@ constexpr VertexAttribute kAttributes[] = {VertexAttribute::position, VertexAttr
                                            VertexAttribute::texcoord, VertexAttribute::extra0,
                                            VertexAttribute::extra1,   VertexAttribute::extra2};
 
-std::string shaderLog(const Functions& gl, GLuint shader) {
+/// Log of a shader or a program, by the pair of entry points that reads it.
+template <typename GetParameter, typename GetLog>
+std::string infoLog(GetParameter getParameter, GetLog getLog, GLuint name) {
   GLint length = 0;
-  gl.getShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+  getParameter(name, GL_INFO_LOG_LENGTH, &length);
   if (length <= 1) return "the driver gave no log";
   std::string log(static_cast<std::size_t>(length), '\0');
   GLsizei written = 0;
-  gl.getShaderInfoLog(shader, length, &written, log.data());
+  getLog(name, length, &written, log.data());
   log.resize(static_cast<std::size_t>(written));
   return log;
 }
 
+std::string shaderLog(const Functions& gl, GLuint shader) {
+  return infoLog(gl.getShaderiv, gl.getShaderInfoLog, shader);
+}
+
 std::string programLog(const Functions& gl, GLuint program) {
-  GLint length = 0;
-  gl.getProgramiv(program, GL_INFO_LOG_LENGTH, &length);
-  if (length <= 1) return "the driver gave no log";
-  std::string log(static_cast<std::size_t>(length), '\0');
-  GLsizei written = 0;
-  gl.getProgramInfoLog(program, length, &written, log.data());
-  log.resize(static_cast<std::size_t>(written));
-  return log;
+  return infoLog(gl.getProgramiv, gl.getProgramInfoLog, program);
 }
 
 /// A shader that lives as long as the link.

@@ -78,7 +78,7 @@ struct LightFrame {
   const scene::AreaLight& light;
   int lightIndex = 0;
   planner::LightFit fit;
-  std::span<const glm::dvec3> casterPointsWorld;  ///< what the fit encloses
+  std::span<const glm::dvec3> casterPointsWorld;  ///< what the fit encloses, three a triangle
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< those the light view is made from
   std::span<const DrawItem> receivers;
