@@ -43,7 +43,10 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
           .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
           .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
-          .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0};
+          .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0,
+          .sourceMesh = &object.mesh,
+          .geometry = &object.geometry,
+          .revision = object.revision};
 }
 
 /// What the pass that evaluates visibility writes: with several lights, shading reads it from the screen.

@@ -135,6 +135,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
     }
   }
   object.mesh.positions = std::move(positions);
+  object.geometry.positionsChanged();
   if (desc.normals && !object.mesh.normals.empty()) {
     for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
       object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);

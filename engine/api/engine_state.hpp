@@ -23,7 +23,8 @@
 namespace halfshadow {
 
 struct EngineObject {
-  scene::TriangleMesh mesh;  ///< kept for bounds and tight light fits
+  scene::TriangleMesh mesh;  ///< kept for bounds, tight light fits and silhouettes
+  scene::CasterGeometry geometry;
   techniques::GpuMesh gpu;
   glm::dmat4 worldFromObject{1.0};
   scene::Bounds boundsObject;

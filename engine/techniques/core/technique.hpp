@@ -16,6 +16,7 @@
 #include "framegraph/graph.hpp"
 #include "gl/program.hpp"
 #include "planner/light_fit.hpp"
+#include "scene/half_edge_mesh.hpp"
 #include "techniques/core/gpu_mesh.hpp"
 #include "techniques/core/settings.hpp"
 #include "techniques/core/shared_textures.hpp"
@@ -45,6 +46,11 @@ struct DrawItem {
   scene::Bounds boundsWorld;
   bool closed = false;    ///< no boundary edges: from outside only front faces are seen
   bool mirrored = false;  ///< the transform turns the winding round
+  const scene::TriangleMesh* sourceMesh = nullptr;
+  const scene::CasterGeometry* geometry = nullptr;
+  std::uint64_t revision = 0;  ///< of mesh and transform
+  /// Adjacency, for silhouettes; built on the first call.
+  const scene::HalfEdgeMesh& halfEdges() const { return geometry->halfEdges(*sourceMesh); }
 };
 
 /// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects around which the eye

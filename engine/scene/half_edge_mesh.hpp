@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Adjacency of a mesh and its silhouettes seen from a point: what shadow volumes and penumbra wedges are
+/// made from.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/bounds.hpp"
+#include "scene/mesh.hpp"
+
+namespace halfshadow::scene {
+
+inline constexpr std::uint32_t kNoFace = ~0u;
+
+/// A welded edge: `face` runs from -> to, `opposite` to -> from. Where no face runs the other way (a
+/// boundary) `opposite` is kNoFace. An edge of k faces becomes several records: by linearity their
+/// contributions add up to the same boundary.
+struct EdgeRecord {
+  std::uint32_t from = 0, to = 0;  ///< welded vertices
+  std::uint32_t face = kNoFace, opposite = kNoFace;
+};
+
+/// One connected set of faces: what casts one shadow. Its faces and edges are contiguous ranges.
+struct CasterPart {
+  std::uint32_t firstFace = 0, faceCount = 0;
+  std::uint32_t firstEdge = 0, edgeCount = 0;
+  std::uint32_t boundaryEdges = 0;
+  std::uint32_t nonManifoldEdges = 0;
+  /// Seen from outside only light-facing faces occlude, once each. An open part is a sheet that occludes from
+  /// both sides: all its faces count, turned towards the light.
+  bool closed = true;
+  Bounds bounds;  ///< object space
+};
+
+/// Half-edge adjacency of a TriangleMesh, with its faces and edges sorted by connected part.
+class HalfEdgeMesh {
+ public:
+  static HalfEdgeMesh build(const TriangleMesh& mesh);
+  /// New positions, same topology. `mesh` is the one it was built from.
+  void updatePositions(const TriangleMesh& mesh);
+
+  std::span<const glm::vec3> positions() const { return positions_; }  ///< of welded vertices
+  std::span<const EdgeRecord> edges() const { return edges_; }
+  std::span<const CasterPart> parts() const { return parts_; }
+  /// Three welded vertices a face, counter-clockwise seen from outside.
+  std::span<const glm::uvec3> faces() const { return faces_; }
+  /// Signed distance of a point to a face's plane is dot(xyz, point - origin()) + w; xyz is not unit.
+  std::span<const glm::vec4> facePlanes() const { return planes_; }
+  glm::dvec3 origin() const { return origin_; }
+
+ private:
+  void computePlanes();
+  std::vector<glm::vec3> positions_;
+  std::vector<std::uint32_t> sourceVertex_;  ///< in the TriangleMesh, of each welded vertex
+  std::vector<glm::uvec3> faces_;
+  std::vector<glm::vec4> planes_;
+  std::vector<EdgeRecord> edges_;
+  std::vector<CasterPart> parts_;
+  glm::dvec3 origin_{0.0};
+};
+
+/// Closed loops of vertices, grouped by part.
+struct Silhouette {
+  struct Loop {
+    std::uint32_t first = 0, count = 0;  ///< in `vertices`; the last vertex joins the first
+  };
+  struct Part {
+    std::uint32_t part = 0;  ///< in HalfEdgeMesh::parts()
+    std::uint32_t firstLoop = 0, loopCount = 0;
+    bool enclosesLight = false;  ///< the point lies inside this closed part
+  };
+  std::vector<std::uint32_t> vertices;  ///< welded
+  std::vector<Loop> loops;
+  std::vector<Part> parts;  ///< those with loops, or enclosing the point
+  /// Per face of the mesh: 1 where it faces the point.
+  std::vector<std::uint8_t> facing;
+
+  // Working memory, kept so that extraction allocates nothing after the first call.
+  struct Link {
+    std::uint32_t to = 0;
+    std::int32_t next = -1;
+  };
+  std::vector<Link> links;
+  std::vector<std::int32_t> firstLink;
+  std::vector<std::uint32_t> starts;
+};
+
+/// The boundary of what `mesh` shows to a light at `lightObject` (object space): loops that run
+/// counter-clockwise seen from the light around what they cover. A loop counts once per layer; the boundary
+/// of a set of faces is always a union of closed loops, whatever the mesh. Overwrites `silhouette`.
+void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette);
+
+/// Half-edges of one object, built when first asked for: scenes drawn with depth maps never need them.
+class CasterGeometry {
+ public:
+  /// `mesh` is the same in every call.
+  const HalfEdgeMesh& halfEdges(const TriangleMesh& mesh) const;
+  /// The mesh's positions were replaced.
+  void positionsChanged() { stale_ = true; }
+
+ private:
+  mutable HalfEdgeMesh halfEdges_;
+  mutable bool built_ = false, stale_ = false;
+};
+
+}  // namespace halfshadow::scene
