@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <numeric>
-#include <unordered_map>
+#include <utility>
+
+#include "scene/face_clusters.hpp"
 
 namespace halfshadow::scene {
 namespace {
@@ -73,6 +75,29 @@ void pairEdge(std::span<const DirectedEdge> uses, std::vector<EdgeRecord>& recor
     }
   }
 }
+/// Sorts the edges of `part` by the clusters of their faces, makes face numbers those of the whole mesh and
+/// counts boundary edges.
+void groupEdges(std::span<EdgeRecord> edges, CasterPart& part, std::vector<EdgeGroup>& groups) {
+  const auto clusters = [](const EdgeRecord& edge) {
+    const std::uint32_t a = edge.face / kClusterFaces;
+    const std::uint32_t b = edge.opposite == kNoFace ? kNoFace : edge.opposite / kClusterFaces;
+    return std::pair(std::min(a, b), std::max(a, b));
+  };
+  std::stable_sort(edges.begin(), edges.end(),
+                   [&](const EdgeRecord& a, const EdgeRecord& b) { return clusters(a) < clusters(b); });
+  for (std::uint32_t first = 0, last; first < edges.size(); first = last) {
+    const auto pair = clusters(edges[first]);
+    for (last = first; last < edges.size() && clusters(edges[last]) == pair; ++last) {
+    }
+    const std::uint32_t b = pair.second == kNoFace ? kNoFace : part.firstCluster + pair.second;
+    groups.push_back({part.firstCluster + pair.first, b, part.firstEdge + first, last - first});
+    if (b == kNoFace) part.boundaryEdges += last - first;
+  }
+  for (EdgeRecord& edge : edges) {
+    edge.face += part.firstFace;
+    if (edge.opposite != kNoFace) edge.opposite += part.firstFace;
+  }
+}
 }  // namespace
 
 HalfEdgeMesh HalfEdgeMesh::build(const TriangleMesh& mesh) {
@@ -93,41 +118,54 @@ HalfEdgeMesh HalfEdgeMesh::build(const TriangleMesh& mesh) {
   std::iota(order.begin(), order.end(), 0u);
   std::stable_sort(order.begin(), order.end(),
                    [&](std::uint32_t a, std::uint32_t b) { return partOf[a] < partOf[b]; });
-  result.parts_.resize(partCount);
-  result.faces_.reserve(faces.size());
-  for (const std::uint32_t f : order) {
-    CasterPart& part = result.parts_[partOf[f]];
-    if (part.faceCount++ == 0) part.firstFace = static_cast<std::uint32_t>(result.faces_.size());
-    result.faces_.push_back(faces[f]);
-  }
-  for (CasterPart& part : result.parts_) {
-    part.firstEdge = static_cast<std::uint32_t>(result.edges_.size());
-    const std::vector<glm::uvec3> own(result.faces_.begin() + part.firstFace,
-                                      result.faces_.begin() + part.firstFace + part.faceCount);
-    const std::vector<DirectedEdge> uses = sortedEdges(own);
-    for (std::size_t first = 0, last; first < uses.size(); first = last) {
-      last = first;
-      while (last < uses.size() && uses[last].key == uses[first].key) ++last;
-      pairEdge({uses.data() + first, last - first}, result.edges_);
-      part.nonManifoldEdges += last - first > 2;
+  result.copyPositions(mesh);
+  std::vector<glm::uvec3> own;
+  for (std::size_t first = 0, last; first < order.size(); first = last) {
+    own.clear();
+    for (last = first; last < order.size() && partOf[order[last]] == partOf[order[first]]; ++last) {
+      own.push_back(faces[order[last]]);
     }
-    part.edgeCount = static_cast<std::uint32_t>(result.edges_.size()) - part.firstEdge;
-    for (std::uint32_t e = part.firstEdge; e < result.edges_.size(); ++e) {
-      EdgeRecord& edge = result.edges_[e];
-      edge.face += part.firstFace;
-      if (edge.opposite == kNoFace) {
-        ++part.boundaryEdges;
-      } else {
-        edge.opposite += part.firstFace;
-      }
-    }
-    part.closed = part.boundaryEdges == 0;
+    result.addPart(own, result.parts_.emplace_back());
   }
-  result.updatePositions(mesh);
+  result.computePlanes();
   return result;
 }
 
+void HalfEdgeMesh::addPart(std::span<const glm::uvec3> faces, CasterPart& part) {
+  part.firstFace = static_cast<std::uint32_t>(faces_.size());
+  part.faceCount = static_cast<std::uint32_t>(faces.size());
+  std::vector<glm::uvec3> own(faces.size());
+  const std::vector<std::uint32_t> order = clusterOrder(faces, positions_);
+  std::transform(order.begin(), order.end(), own.begin(), [&](std::uint32_t f) { return faces[f]; });
+  faces_.insert(faces_.end(), own.begin(), own.end());
+
+  part.firstCluster = static_cast<std::uint32_t>(clusters_.size());
+  part.clusterCount = (part.faceCount + kClusterFaces - 1) / kClusterFaces;
+  for (std::uint32_t f = 0; f < part.faceCount; f += kClusterFaces) {
+    clusters_.push_back({part.firstFace + f, std::min(kClusterFaces, part.faceCount - f)});
+  }
+
+  part.firstEdge = static_cast<std::uint32_t>(edges_.size());
+  const std::vector<DirectedEdge> uses = sortedEdges(own);
+  for (std::size_t first = 0, last; first < uses.size(); first = last) {
+    last = first;
+    while (last < uses.size() && uses[last].key == uses[first].key) ++last;
+    pairEdge({uses.data() + first, last - first}, edges_);
+    part.nonManifoldEdges += last - first > 2;
+  }
+  part.edgeCount = static_cast<std::uint32_t>(edges_.size()) - part.firstEdge;
+  part.firstGroup = static_cast<std::uint32_t>(groups_.size());
+  groupEdges({edges_.data() + part.firstEdge, part.edgeCount}, part, groups_);
+  part.groupCount = static_cast<std::uint32_t>(groups_.size()) - part.firstGroup;
+  part.closed = part.boundaryEdges == 0;
+}
+
 void HalfEdgeMesh::updatePositions(const TriangleMesh& mesh) {
+  copyPositions(mesh);
+  computePlanes();
+}
+
+void HalfEdgeMesh::copyPositions(const TriangleMesh& mesh) {
   positions_.resize(sourceVertex_.size());
   Bounds all;
   for (std::size_t i = 0; i < positions_.size(); ++i) {
@@ -135,7 +173,6 @@ void HalfEdgeMesh::updatePositions(const TriangleMesh& mesh) {
     all.include(glm::dvec3(positions_[i]));
   }
   origin_ = all.empty() ? glm::dvec3(0.0) : all.center();
-  computePlanes();
 }
 
 void HalfEdgeMesh::computePlanes() {
@@ -144,11 +181,14 @@ void HalfEdgeMesh::computePlanes() {
     part.bounds = {};
     for (std::uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
       const glm::dvec3 a(positions_[faces_[f].x]), b(positions_[faces_[f].y]), c(positions_[faces_[f].z]);
-      const glm::dvec3 normal = glm::cross(b - a, c - a);
+      const glm::dvec3 cross = glm::cross(b - a, c - a);
+      const double length = glm::length(cross);
+      const glm::dvec3 normal = length > 0.0 ? cross / length : glm::dvec3(0.0);
       planes_[f] = glm::vec4(glm::vec3(normal), static_cast<float>(-glm::dot(normal, a - origin_)));
       for (const glm::dvec3& p : {a, b, c}) part.bounds.include(p);
     }
   }
+  for (FaceCluster& cluster : clusters_) fitCluster(cluster, faces_, positions_, planes_, origin_);
 }
 
 const HalfEdgeMesh& CasterGeometry::halfEdges(const TriangleMesh& mesh) const {

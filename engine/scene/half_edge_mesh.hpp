@@ -31,10 +31,30 @@ struct CasterPart {
   std::uint32_t firstEdge = 0, edgeCount = 0;
   std::uint32_t boundaryEdges = 0;
   std::uint32_t nonManifoldEdges = 0;
+  std::uint32_t firstCluster = 0, clusterCount = 0;
+  std::uint32_t firstGroup = 0, groupCount = 0;
   /// Seen from outside only light-facing faces occlude, once each. An open part is a sheet that occludes from
-  /// both sides: all its faces count, turned towards the light.
+  /// both sides: all its faces count, turned towards the light; its two sides are kept apart, because where
+  /// they meet at a silhouette edge they cover the same ground twice.
   bool closed = true;
   Bounds bounds;  ///< object space
+};
+
+/// A few neighbouring faces of one part with similar normals, a contiguous range: seen from most points they
+/// all look the same way, which one test of their normals' cone tells.
+struct FaceCluster {
+  std::uint32_t firstFace = 0, faceCount = 0;
+  glm::vec3 center{0.0f};  ///< relative to HalfEdgeMesh::origin()
+  glm::vec3 axis{0.0f};    ///< unit normals lie within an angle of it; wide cones have offsets ±infinity
+  float cosAngle = 1.0f, sinAngle = 0.0f;
+  float lowOffset = 0.0f, highOffset = 0.0f;  ///< range of normal · (face - center), with 0
+};
+
+/// The edges between two clusters, or within one (clusterA = clusterB), or at a boundary (clusterB =
+/// kNoFace): none of them is a silhouette edge where all the faces of both look the same way.
+struct EdgeGroup {
+  std::uint32_t clusterA = 0, clusterB = 0;
+  std::uint32_t firstEdge = 0, edgeCount = 0;
 };
 
 /// Half-edge adjacency of a TriangleMesh, with its faces and edges sorted by connected part.
@@ -49,11 +69,15 @@ class HalfEdgeMesh {
   std::span<const CasterPart> parts() const { return parts_; }
   /// Three welded vertices a face, counter-clockwise seen from outside.
   std::span<const glm::uvec3> faces() const { return faces_; }
-  /// Signed distance of a point to a face's plane is dot(xyz, point - origin()) + w; xyz is not unit.
+  /// Signed distance of a point to a face's plane is dot(xyz, point - origin()) + w; xyz is unit.
   std::span<const glm::vec4> facePlanes() const { return planes_; }
   glm::dvec3 origin() const { return origin_; }
+  std::span<const FaceCluster> clusters() const { return clusters_; }
+  std::span<const EdgeGroup> edgeGroups() const { return groups_; }
 
  private:
+  void addPart(std::span<const glm::uvec3> faces, CasterPart& part);
+  void copyPositions(const TriangleMesh& mesh);
   void computePlanes();
   std::vector<glm::vec3> positions_;
   std::vector<std::uint32_t> sourceVertex_;  ///< in the TriangleMesh, of each welded vertex
@@ -61,6 +85,8 @@ class HalfEdgeMesh {
   std::vector<glm::vec4> planes_;
   std::vector<EdgeRecord> edges_;
   std::vector<CasterPart> parts_;
+  std::vector<FaceCluster> clusters_;
+  std::vector<EdgeGroup> groups_;
   glm::dvec3 origin_{0.0};
 };
 
@@ -73,12 +99,26 @@ struct Silhouette {
     std::uint32_t part = 0;  ///< in HalfEdgeMesh::parts()
     std::uint32_t firstLoop = 0, loopCount = 0;
     bool enclosesLight = false;  ///< the point lies inside this closed part
+    bool turnedAway = false;     ///< the side of a sheet whose faces look away from the point
   };
   std::vector<std::uint32_t> vertices;  ///< welded
   std::vector<Loop> loops;
-  std::vector<Part> parts;  ///< those with loops, or enclosing the point
+  std::vector<Part> parts;  ///< those with loops, or enclosing the point; two entries for a sheet's sides
   /// Per face of the mesh: 1 where it faces the point.
   std::vector<std::uint8_t> facing;
+  /// What the last extraction did.
+  struct Counters {
+    std::uint64_t facesTested = 0;      ///< one by one; the others were decided with their cluster
+    std::uint64_t clustersSkipped = 0;  ///< wholly facing or wholly turned away
+    std::uint64_t edgesVisited = 0;
+    Counters& operator+=(const Counters& other) {
+      facesTested += other.facesTested;
+      clustersSkipped += other.clustersSkipped;
+      edgesVisited += other.edgesVisited;
+      return *this;
+    }
+  };
+  Counters counters;
 
   // Working memory, kept so that extraction allocates nothing after the first call.
   struct Link {
@@ -88,6 +128,7 @@ struct Silhouette {
   std::vector<Link> links;
   std::vector<std::int32_t> firstLink;
   std::vector<std::uint32_t> starts;
+  std::vector<std::uint8_t> clusterFacing;
 };
 
 /// The boundary of what `mesh` shows to a light at `lightObject` (object space): loops that run

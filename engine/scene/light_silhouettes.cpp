@@ -22,6 +22,54 @@ void clipLoop(const std::vector<glm::dvec3>& loop, double minHeight, std::vector
     if (aIn != bIn) out.emplace_back(glm::mix(a, b, (minHeight - a.z) / (b.z - a.z)));
   }
 }
+
+/// A caster's silhouettes seen from `sourceWorld`, appended.
+void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm::dvec3& sourceWorld,
+                  double minHeight, LightSilhouettes& result) {
+  thread_local Silhouette silhouette;
+  thread_local std::vector<glm::dvec3> loopPoints;
+  const glm::dmat3 linear(caster.worldFromObject);
+  const glm::dvec3 originWorld(caster.worldFromObject[3]);
+  extractSilhouette(*caster.mesh, glm::inverse(linear) * (sourceWorld - originWorld), silhouette);
+  result.counters += silhouette.counters;
+  // (a, b, h) = lightFromObject · object + offset; the large translations cancel in double.
+  const glm::dmat3 lightFromObject = plane.axes * linear;
+  const glm::dvec3 offset = plane.fromWorld(originWorld);
+  // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
+  const bool reverse = glm::determinant(linear) > 0.0;
+  for (const Silhouette::Part& part : silhouette.parts) {
+    LightSilhouettes::Caster placed{.object = caster.object,
+                                    .part = part.part,
+                                    .firstLoop = static_cast<std::uint32_t>(result.loops.size()),
+                                    .low = glm::vec3(1e30f),
+                                    .high = glm::vec3(-1e30f),
+                                    .closed = caster.mesh->parts()[part.part].closed,
+                                    .enclosesLight = part.enclosesLight};
+    for (std::uint32_t l = part.firstLoop; l < part.firstLoop + part.loopCount; ++l) {
+      const Silhouette::Loop& loop = silhouette.loops[l];
+      loopPoints.clear();
+      for (std::uint32_t i = 0; i < loop.count; ++i) {
+        const std::uint32_t vertex = silhouette.vertices[loop.first + i];
+        loopPoints.push_back(lightFromObject * glm::dvec3(caster.mesh->positions()[vertex]) + offset);
+      }
+      if (reverse) std::reverse(loopPoints.begin(), loopPoints.end());
+      const auto first = static_cast<std::uint32_t>(result.points.size());
+      clipLoop(loopPoints, minHeight, result.points);
+      const auto count = static_cast<std::uint32_t>(result.points.size()) - first;
+      if (count < 3) {
+        result.points.resize(first);
+        continue;
+      }
+      result.loops.push_back({first, count});
+      for (std::uint32_t i = first; i < first + count; ++i) {
+        placed.low = glm::min(placed.low, result.points[i]);
+        placed.high = glm::max(placed.high, result.points[i]);
+      }
+    }
+    placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
+    if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
+  }
+}
 }  // namespace
 
 LightPlane::LightPlane(const AreaLight& light, double heightUnitWorld, double minHalfLength)
@@ -38,56 +86,77 @@ glm::dvec3 LightPlane::toWorld(const glm::dvec3& abh) const {
   return centerWorld + abh.x * halfU + abh.y * halfV + abh.z * heightUnit * normal;
 }
 
+void LightSilhouettes::clear() {
+  points.clear();
+  loops.clear();
+  casters.clear();
+  counters = {};
+}
+
+void LightSilhouettes::append(const LightSilhouettes& other) {
+  const auto firstPoint = static_cast<std::uint32_t>(points.size());
+  const auto firstLoop = static_cast<std::uint32_t>(loops.size());
+  points.insert(points.end(), other.points.begin(), other.points.end());
+  for (const Loop& loop : other.loops) loops.push_back({firstPoint + loop.first, loop.count});
+  for (Caster caster : other.casters) {
+    caster.firstLoop += firstLoop;
+    casters.push_back(caster);
+  }
+}
+
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
                       double sourceB, double minHeight, LightSilhouettes& result) {
-  result.points.clear();
-  result.loops.clear();
-  result.casters.clear();
+  result.clear();
   const glm::dvec3 sourceWorld = plane.toWorld({sourceA, sourceB, 0.0});
-  thread_local Silhouette silhouette;
-  std::vector<glm::dvec3> loopPoints;
-  for (const PlacedCaster& caster : casters) {
-    const glm::dmat3 linear(caster.worldFromObject);
-    const glm::dvec3 originWorld(caster.worldFromObject[3]);
-    extractSilhouette(*caster.mesh, glm::inverse(linear) * (sourceWorld - originWorld), silhouette);
-    // (a, b, h) = lightFromObject · object + offset; the large translations cancel in double.
-    const glm::dmat3 lightFromObject = plane.axes * linear;
-    const glm::dvec3 offset = plane.fromWorld(originWorld);
-    // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
-    const bool reverse = glm::determinant(linear) > 0.0;
-    for (const Silhouette::Part& part : silhouette.parts) {
-      LightSilhouettes::Caster placed{.object = caster.object,
-                                      .part = part.part,
-                                      .firstLoop = static_cast<std::uint32_t>(result.loops.size()),
-                                      .low = glm::vec3(1e30f),
-                                      .high = glm::vec3(-1e30f),
-                                      .closed = caster.mesh->parts()[part.part].closed,
-                                      .enclosesLight = part.enclosesLight};
-      for (std::uint32_t l = part.firstLoop; l < part.firstLoop + part.loopCount; ++l) {
-        const Silhouette::Loop& loop = silhouette.loops[l];
-        loopPoints.clear();
-        for (std::uint32_t i = 0; i < loop.count; ++i) {
-          const std::uint32_t vertex = silhouette.vertices[loop.first + i];
-          loopPoints.push_back(lightFromObject * glm::dvec3(caster.mesh->positions()[vertex]) + offset);
-        }
-        if (reverse) std::reverse(loopPoints.begin(), loopPoints.end());
-        const auto first = static_cast<std::uint32_t>(result.points.size());
-        clipLoop(loopPoints, minHeight, result.points);
-        const auto count = static_cast<std::uint32_t>(result.points.size()) - first;
-        if (count < 3) {
-          result.points.resize(first);
-          continue;
-        }
-        result.loops.push_back({first, count});
-        for (std::uint32_t i = first; i < first + count; ++i) {
-          placed.low = glm::min(placed.low, result.points[i]);
-          placed.high = glm::max(placed.high, result.points[i]);
-        }
-      }
-      placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
-      if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
-    }
+  for (const PlacedCaster& caster : casters) appendCaster(caster, plane, sourceWorld, minHeight, result);
+}
+
+bool LightSilhouetteCache::View::operator==(const View& other) const {
+  return centerWorld == other.centerWorld && axes == other.axes && sourceA == other.sourceA &&
+         sourceB == other.sourceB && minHeight == other.minHeight;
+}
+
+const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaster> casters,
+                                                     const LightPlane& plane, double sourceA, double sourceB,
+                                                     double minHeight) {
+  counters_ = {};
+  changedObjects_.clear();
+  const View view{plane.centerWorld, plane.axes, sourceA, sourceB, minHeight};
+  bool changed = casters.size() != order_.size() || generation_ == 0;
+  if (!(view == view_)) {
+    view_ = view;
+    for (auto& [object, entry] : entries_) entry.revision = 0;
   }
+  const glm::dvec3 sourceWorld = plane.toWorld({sourceA, sourceB, 0.0});
+  ++frame_;
+  order_.resize(casters.size());
+  for (std::size_t i = 0; i < casters.size(); ++i) {
+    const PlacedCaster& caster = casters[i];
+    // Casters that share a number are told apart by how many came before.
+    std::uint64_t key = caster.object;
+    while (entries_[key].frame == frame_) key += std::uint64_t{1} << 32;
+    Entry& entry = entries_[key];
+    entry.frame = frame_;
+    if (caster.revision != 0 && entry.revision == caster.revision && entry.mesh == caster.mesh) {
+      ++counters_.reused;
+    } else {
+      entry.silhouettes.clear();
+      appendCaster(caster, plane, sourceWorld, minHeight, entry.silhouettes);
+      entry.revision = caster.revision;
+      entry.mesh = caster.mesh;
+      ++counters_.extracted;
+      changedObjects_.push_back(caster.object);
+      changed = true;
+    }
+    changed = changed || order_[i] != key;
+    order_[i] = key;
+  }
+  if (!changed) return result_;
+  result_.clear();
+  for (const std::uint64_t key : order_) result_.append(entries_[key].silhouettes);
+  std::erase_if(entries_, [&](const auto& entry) { return entry.second.frame != frame_; });
+  ++generation_;
+  return result_;
 }
 
 }  // namespace halfshadow::scene

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "scene/half_edge_mesh.hpp"
@@ -35,30 +36,76 @@ struct LightPlane {
 struct PlacedCaster {
   const HalfEdgeMesh* mesh = nullptr;
   glm::dmat4 worldFromObject{1.0};
-  std::uint32_t object = 0;  ///< the caller's number
+  std::uint32_t object = 0;    ///< the caller's number
+  std::uint64_t revision = 0;  ///< of mesh and place, for LightSilhouetteCache; 0 = not known
 };
 
 struct LightSilhouettes {
   struct Loop {
     std::uint32_t first = 0, count = 0;  ///< in `points`, closed
   };
-  /// One connected part of one caster.
+  /// One connected part of one caster, or one side of an open one.
   struct Caster {
     std::uint32_t object = 0, part = 0;
     std::uint32_t firstLoop = 0, loopCount = 0;
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds of its loops in (a, b, h)
-    bool closed = true;               ///< else a sheet: a loop may count two layers
-    bool enclosesLight = false;       ///< the source lies inside it: nothing outside sees the light
+    /// Else one side of a sheet: the faces that look towards the light and those that look away are two
+    /// entries, so that one entry covers nothing twice unless the surface itself folds.
+    bool closed = true;
+    bool enclosesLight = false;  ///< the source lies inside it: nothing outside sees the light
   };
   /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover.
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
   std::vector<Caster> casters;
+  Silhouette::Counters counters;  ///< of lightSilhouettes(), over all casters
+
+  void clear();
+  void append(const LightSilhouettes& other);  ///< all but the counters
 };
 
 /// Silhouettes seen from the point (sourceA, sourceB) of the light, cut at h = minHeight (> 0, small): what
 /// reaches behind the light is closed along the cut. Replaces the content of `result`.
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
                       double sourceB, double minHeight, LightSilhouettes& result);
+
+/// Silhouettes seen from one point of one light, extracted again only for casters that changed.
+class LightSilhouetteCache {
+ public:
+  /// Same result as lightSilhouettes(). A caster is known by its `object` (and its place among casters that
+  /// share one). A light that moved, or another source point, extracts everything anew. The reference lasts
+  /// until the next call.
+  const LightSilhouettes& update(std::span<const PlacedCaster> casters, const LightPlane& plane,
+                                 double sourceA, double sourceB, double minHeight);
+
+  struct Counters {
+    std::uint32_t extracted = 0, reused = 0;  ///< casters
+  };
+  Counters counters() const { return counters_; }  ///< of the last update()
+  /// Casters that the last update() extracted, by their `object`.
+  std::span<const std::uint32_t> changedObjects() const { return changedObjects_; }
+  /// Counts up whenever the result differs from the one before: what was made from it is stale.
+  std::uint64_t generation() const { return generation_; }
+
+ private:
+  struct View {
+    glm::dvec3 centerWorld{0.0};
+    glm::dmat3 axes{0.0};
+    double sourceA = 0.0, sourceB = 0.0, minHeight = 0.0;
+    bool operator==(const View& other) const;
+  };
+  struct Entry {
+    const HalfEdgeMesh* mesh = nullptr;
+    std::uint64_t revision = 0, frame = 0;
+    LightSilhouettes silhouettes;
+  };
+  View view_;
+  std::unordered_map<std::uint64_t, Entry> entries_;  ///< by object, and in the high half its repetition
+  std::vector<std::uint64_t> order_;                  ///< keys of what is in `result_`
+  std::vector<std::uint32_t> changedObjects_;
+  LightSilhouettes result_;
+  Counters counters_;
+  std::uint64_t frame_ = 0, generation_ = 0;
+};
 
 }  // namespace halfshadow::scene

@@ -1,15 +1,49 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "scene/half_edge_mesh.hpp"
 
 namespace halfshadow::scene {
 namespace {
-/// Layers that a face adds seen from the light: of a closed part its light-facing faces; of a sheet all
-/// faces, those that look away turned round.
-int layersOf(bool facing, bool closed) {
-  return facing ? 1 : (closed ? 0 : -1);
+enum Facing : std::uint8_t { kAway = 0, kTowards = 1, kMixed = 2 };
+
+/// Whether the cluster's faces all look towards `light` (relative to the mesh's origin) or all away.
+/// Based on: Sander, Gu, Gortler, Hoppe, Snyder, "Silhouette Clipping", 2000, section 3, anchored cones.
+Facing clusterFacing(const FaceCluster& cluster, const glm::vec3& light) {
+  const glm::vec3 d = light - cluster.center;
+  const float along = glm::dot(cluster.axis, d);
+  const float across = std::sqrt(std::max(0.0f, glm::dot(d, d) - along * along));
+  const float shared = along * cluster.cosAngle, spread = across * cluster.sinAngle;
+  const float rounding = 2e-6f * (std::abs(along) + across);
+  if (shared - spread > cluster.highOffset + rounding) return kTowards;
+  if (shared + spread < cluster.lowOffset - rounding) return kAway;
+  return kMixed;
+}
+
+void findFacing(const HalfEdgeMesh& mesh, const glm::vec3& light, Silhouette& s) {
+  const std::span<const FaceCluster> clusters = mesh.clusters();
+  const std::span<const glm::vec4> planes = mesh.facePlanes();
+  s.facing.resize(mesh.faces().size());
+  s.clusterFacing.resize(clusters.size());
+  for (std::size_t c = 0; c < clusters.size(); ++c) {
+    const FaceCluster& cluster = clusters[c];
+    const Facing facing = clusterFacing(cluster, light);
+    s.clusterFacing[c] = facing;
+    std::uint8_t* const faces = s.facing.data() + cluster.firstFace;
+    if (facing != kMixed) {
+      std::memset(faces, facing, cluster.faceCount);
+      ++s.counters.clustersSkipped;
+      continue;
+    }
+    const glm::vec4* const own = planes.data() + cluster.firstFace;
+    for (std::uint32_t f = 0; f < cluster.faceCount; ++f) {
+      faces[f] = own[f].x * light.x + own[f].y * light.y + own[f].z * light.z + own[f].w > 0.0f;
+    }
+    s.counters.facesTested += cluster.faceCount;
+  }
 }
 
 bool inside(const Bounds& bounds, const glm::dvec3& p) {
@@ -62,6 +96,32 @@ void chain(Silhouette& s) {
   s.links.clear();
   s.starts.clear();
 }
+enum class Side { facing, away };
+
+/// Links the boundary of the part's faces that look towards the light; or of those that look away, turned
+/// round.
+void linkBoundary(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, Silhouette& s) {
+  for (const EdgeGroup& group : mesh.edgeGroups().subspan(part.firstGroup, part.groupCount)) {
+    const std::uint8_t a = s.clusterFacing[group.clusterA];
+    if (group.clusterB == kNoFace) {
+      if (a == (side == Side::facing ? kAway : kTowards)) continue;
+    } else if (a != kMixed && a == s.clusterFacing[group.clusterB]) {
+      continue;
+    }
+    s.counters.edgesVisited += group.edgeCount;
+    for (const EdgeRecord& edge : mesh.edges().subspan(group.firstEdge, group.edgeCount)) {
+      const bool facing = s.facing[edge.face] != 0;
+      // A boundary edge continues where its own side ends.
+      const bool beyond = edge.opposite != kNoFace ? s.facing[edge.opposite] != 0 : side == Side::away;
+      if (facing == beyond) continue;
+      if (facing) {
+        link(s, edge.from, edge.to);
+      } else {
+        link(s, edge.to, edge.from);
+      }
+    }
+  }
+}
 }  // namespace
 
 void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette) {
@@ -69,30 +129,23 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
   s.vertices.clear();
   s.loops.clear();
   s.parts.clear();
-  s.links.clear();
-  s.starts.clear();
-  s.firstLink.assign(mesh.positions().size(), -1);
-  s.facing.resize(mesh.faces().size());
-  const glm::vec3 light(lightObject - mesh.origin());
-  const std::span<const glm::vec4> planes = mesh.facePlanes();
-  for (std::size_t f = 0; f < planes.size(); ++f) {
-    const glm::vec4& p = planes[f];
-    s.facing[f] = p.x * light.x + p.y * light.y + p.z * light.z + p.w > 0.0f;
-  }
+  s.counters = {};
+  // Chaining takes all links out again, so that what is there is -1.
+  if (s.firstLink.size() < mesh.positions().size()) s.firstLink.resize(mesh.positions().size(), -1);
+  findFacing(mesh, glm::vec3(lightObject - mesh.origin()), s);
   for (std::uint32_t i = 0; i < mesh.parts().size(); ++i) {
     const CasterPart& part = mesh.parts()[i];
-    Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
-    for (const EdgeRecord& edge : mesh.edges().subspan(part.firstEdge, part.edgeCount)) {
-      int layers = layersOf(s.facing[edge.face] != 0, part.closed);
-      if (edge.opposite != kNoFace) layers -= layersOf(s.facing[edge.opposite] != 0, part.closed);
-      for (; layers > 0; --layers) link(s, edge.from, edge.to);
-      for (; layers < 0; ++layers) link(s, edge.to, edge.from);
+    for (const Side side : {Side::facing, Side::away}) {
+      if (side == Side::away && part.closed) break;
+      Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
+      found.turnedAway = side == Side::away;
+      linkBoundary(mesh, part, side, s);
+      chain(s);
+      found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
+      found.enclosesLight =
+          part.closed && inside(part.bounds, lightObject) && windingNumber(mesh, part, lightObject) > 0.5;
+      if (found.loopCount > 0 || found.enclosesLight) s.parts.push_back(found);
     }
-    chain(s);
-    found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
-    found.enclosesLight =
-        part.closed && inside(part.bounds, lightObject) && windingNumber(mesh, part, lightObject) > 0.5;
-    if (found.loopCount > 0 || found.enclosesLight) s.parts.push_back(found);
   }
 }
 
