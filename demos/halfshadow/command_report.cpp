@@ -9,6 +9,7 @@
 #include "measure/measurement.hpp"
 #include "measure/text_file.hpp"
 #include "options.hpp"
+#include "papers/papers.hpp"
 #include "report/report.hpp"
 #include "report/scene_pictures.hpp"
 
@@ -21,6 +22,7 @@ struct Arguments {
   DriverArguments driver;
   SettingArguments settings;
   std::string folder;
+  bool papers = false;
   int samples = 1024, frames = 5;
 };
 
@@ -89,7 +91,41 @@ void printScene(const report::SceneReport& scene) {
   std::fflush(stdout);
 }
 
+/// Every paper's comparison; papers.json beside the page has the numbers. Errors: fileNotWritable (--output),
+/// those of rendering.
+Status addPapers(measure::EngineSession& session, const Arguments& arguments, report::Report& document) {
+  using Paper = Result<papers::PaperResult> (*)(measure::EngineSession&, const papers::PaperOptions&);
+  papers::PaperOptions options{.samples = arguments.samples};
+  options.repetitions = std::min(arguments.frames, options.repetitions);
+  const auto model = std::ranges::find_if(
+      arguments.scenes, [](const std::string& source) { return !source.starts_with("builtin:"); });
+  if (model != arguments.scenes.end()) options.model = *model;
+  measure::Json json = measure::Json::array();
+  for (const Paper paper :
+       {papers::occlusionTextures2006, papers::shadowWidth2003, papers::penumbraWedges2006}) {
+    ProgressLine progress;
+    options.progress = [&](const std::string& stage, double share) { progress.update(stage, share); };
+    auto result = paper(session, options);
+    if (!result) return result.error();
+    document.sections.push_back(std::move(result->section));
+    json.push_back(std::move(result->json));
+  }
+  document.sections.push_back(
+      {"Evans, Agenjo, Blat 2014: filters of variable penumbra",
+       {report::paragraphHtml(
+           "Its comparison of masks against full kernels (hard, 4x4, 7x7, variable penumbra; a person of "
+           "50,000 vertices at 1280x720) is a benchmark of its own: halfshadow profile evans -o FOLDER "
+           "writes "
+           "times, ratios, errors and pictures.")}});
+  const auto path = std::filesystem::path(arguments.folder) / "papers.json";
+  return measure::writeTextFile(path, json.dump(2) + "\n");
+}
+
 ExitStatus makeReport(const Arguments& arguments) {
+  if (arguments.scenes.empty() && !arguments.papers) {
+    say("report: there is nothing to show; give scenes, --papers or both");
+    return kBadUsage;
+  }
   auto session = openSession(arguments.driver);
   if (!session) return fail(session.error());
   if (Status status = checkSize(arguments.size, **session); !status) return fail(status.error());
@@ -117,6 +153,9 @@ ExitStatus makeReport(const Arguments& arguments) {
     printScene(*scene);
     document.scenes.push_back(std::move(*scene));
   }
+  if (arguments.papers) {
+    if (Status status = addPapers(**session, arguments, document); !status) return fail(status.error());
+  }
   if (Status status = report::writeReport(page, document); !status) return fail(status.error());
   std::printf("wrote %s\n", page.c_str());
   return kDone;
@@ -127,7 +166,10 @@ void addReportCommand(CLI::App& app, ExitStatus& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("report", "measures several scenes into one HTML page with pictures");
-  command->add_option("SCENE", arguments->scenes, ".gltf or .glb files, or builtin:NAME")->required();
+  command->add_option("SCENE", arguments->scenes, ".gltf or .glb files, or builtin:NAME");
+  command->add_flag("--papers", arguments->papers,
+                    "also repeat the comparisons of the papers that the techniques come from, over built-in "
+                    "scenes and the first file given; numbers go to papers.json");
   command->add_option("-o,--output", arguments->folder, "folder for report.html and the shaded images")
       ->required();
   command

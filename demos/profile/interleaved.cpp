@@ -43,7 +43,25 @@ std::vector<Configuration> completed(Engine& engine, const std::vector<Configura
 }
 
 struct Samples {
-  std::vector<double> frame, light, receiver;
+  std::vector<double> frame, unchanged, light, receiver;
+  std::vector<PassTime> passes;             ///< of the last frame
+  std::vector<std::vector<double>> byPass;  ///< parallel to it
+
+  void addPasses(const FrameReport& report) {
+    if (passes.size() != report.passCount) {
+      passes.resize(report.passCount);
+      byPass.assign(report.passCount, {});
+    }
+    double lightSum = 0.0, receiverSum = 0.0;
+    for (std::size_t i = 0; i < report.passCount; ++i) {
+      const PassRecord& pass = report.passes[i];
+      (pass.lightSpace ? lightSum : receiverSum) += pass.milliseconds;
+      passes[i] = {.name = pass.name, .lightSpace = pass.lightSpace};
+      byPass[i].push_back(pass.milliseconds);
+    }
+    light.push_back(lightSum);
+    receiver.push_back(receiverSum);
+  }
 };
 
 class Frames {
@@ -70,11 +88,7 @@ class Frames {
     scene::AreaLight light = light_;
     if (moved_) light.centerWorld -= scene::emissionDirection(light) * step_;
     if (Status status = session_.setLights({light}); !status) return status;
-    desc_.timing = timing;
-    if (Status status = session_.render(desc_, report); !status) return status;
-    session_.engine().finish();
-    milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
-    return {};
+    return finishFrame(timing, start, report, milliseconds);
   }
 
   Status repetition(Samples* samples) {
@@ -88,13 +102,10 @@ class Frames {
     if (Status status = dynamicFrame(Timing::off, report, milliseconds); !status) return status;
     if (samples != nullptr) samples->frame.push_back(milliseconds);
     if (Status status = dynamicFrame(Timing::perPass, report, milliseconds); !status) return status;
-    if (samples == nullptr) return {};
-    double light = 0.0, receiver = 0.0;
-    for (std::size_t i = 0; i < report.passCount; ++i) {
-      (report.passes[i].lightSpace ? light : receiver) += report.passes[i].milliseconds;
-    }
-    samples->light.push_back(light);
-    samples->receiver.push_back(receiver);
+    if (samples != nullptr) samples->addPasses(report);
+    session_.engine().finish();
+    if (Status status = finishFrame(Timing::off, Clock::now(), report, milliseconds); !status) return status;
+    if (samples != nullptr) samples->unchanged.push_back(milliseconds);
     return {};
   }
 
@@ -109,6 +120,14 @@ class Frames {
   }
 
  private:
+  Status finishFrame(Timing timing, Clock::time_point start, FrameReport& report, double& milliseconds) {
+    desc_.timing = timing;
+    if (Status status = session_.render(desc_, report); !status) return status;
+    session_.engine().finish();
+    milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    return {};
+  }
+
   measure::EngineSession& session_;
   scene::AreaLight light_;
   RenderDesc desc_;
@@ -149,6 +168,11 @@ Result<std::vector<FrameTimes>> interleavedTimes(measure::EngineSession& session
     auto visibility = frames.visibility();
     if (!visibility) return visibility.error();
     times[i].visibility = std::move(*visibility);
+    times[i].passes = std::move(samples[i].passes);
+    for (std::size_t k = 0; k < times[i].passes.size(); ++k) {
+      times[i].passes[k].medianMs = measure::timeStatistics(std::move(samples[i].byPass[k])).medianMs;
+    }
+    times[i].frameStatic = measure::timeStatistics(std::move(samples[i].unchanged));
     times[i].frame = measure::timeStatistics(std::move(samples[i].frame));
     times[i].lightPasses = measure::timeStatistics(std::move(samples[i].light));
     times[i].receiverPasses = measure::timeStatistics(std::move(samples[i].receiver));

@@ -12,11 +12,19 @@
 
 namespace halfshadow::profile {
 
+struct PassTime {
+  std::string name;
+  bool lightSpace = false;
+  double medianMs = 0.0;  ///< waited for
+};
+
 struct FrameTimes {
   bool supported = true;
   measure::TimeStatistics frame;           ///< whole dynamic frames
+  measure::TimeStatistics frameStatic;     ///< whole frames in which nothing changed
   measure::TimeStatistics lightPasses;     ///< sum of the passes in light space, each waited for
   measure::TimeStatistics receiverPasses;  ///< sum of the others
+  std::vector<PassTime> passes;            ///< of dynamic frames, in the order of drawing
   std::vector<float> visibility;  ///< after the timed frames, for comparison with the measured picture
 };
 
@@ -26,8 +34,9 @@ struct InterleavedOptions {
 };
 
 /// One engine, one scene; each repetition runs every configuration: two untimed frames, one timed whole, one
-/// timed by pass; the light moves imperceptibly before each, so that nothing is cached. The result has the
-/// order of `configurations`. Errors: those of EngineSession.
+/// timed by pass, before each of which the light moves imperceptibly, so that nothing is cached; then one
+/// unchanged frame, timed whole. The result has the order of `configurations`. Errors: those of
+/// EngineSession.
 Result<std::vector<FrameTimes>> interleavedTimes(measure::EngineSession& session,
                                                  const scene::SceneDescription& scene,
                                                  const std::vector<measure::Configuration>& configurations,

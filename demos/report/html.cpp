@@ -43,6 +43,12 @@ dl.facts dt { color: var(--soft); }
 dl.facts dd { margin: 0; overflow-wrap: anywhere; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(300px, 1fr)); gap: 16px; margin-top: 16px; }
 .grid { display: grid; grid-template-columns: repeat(auto-fill, minmax(360px, 1fr)); gap: 16px; margin-top: 16px; }
+.strip { display: grid; grid-template-columns: repeat(var(--columns), minmax(0, 1fr)); gap: 14px; margin: 14px 0; }
+@media (max-width: 760px) { .strip { grid-template-columns: 1fr 1fr; } }
+.strip .card { padding: 12px; }
+.strip h4 { margin: 0 0 8px; font-size: 14px; }
+.strip figure { margin-bottom: 8px; }
+.strip .numbers { font-size: 13px; font-variant-numeric: tabular-nums; }
 figure { margin: 0; }
 figure img { display: block; width: 100%; height: auto; border-radius: 6px; border: 1px solid var(--line); }
 figcaption { color: var(--soft); font-size: 13px; margin-top: 6px; }
@@ -74,6 +80,17 @@ svg .major { stroke: var(--line); stroke-width: 1; }
 svg .front { stroke: var(--front); stroke-width: 1.5; fill: none; stroke-dasharray: 5 4; }
 svg .dot { fill: var(--accent); }
 svg .dot.on { fill: var(--front); }
+svg .curve { stroke: currentColor; stroke-width: 2; fill: none; stroke-linejoin: round; }
+svg .point { fill: currentColor; }
+svg text.c0, svg text.c1, svg text.c2, svg text.c3, svg text.c4, svg text.c5, svg text.c6, svg text.c7 {
+  fill: currentColor; font-weight: 600;
+}
+.c0 { color: #2b62c4; } .c1 { color: #c2740a; } .c2 { color: #1d7a4b; } .c3 { color: #b3372f; }
+.c4 { color: #7a4fc0; } .c5 { color: #0f7f8c; } .c6 { color: #96700c; } .c7 { color: #a83a86; }
+@media (prefers-color-scheme: dark) {
+  .c0 { color: #7aa7f7; } .c1 { color: #f0b04a; } .c2 { color: #63c996; } .c3 { color: #f0867c; }
+  .c4 { color: #b493f0; } .c5 { color: #4fc3cf; } .c6 { color: #d6b04c; } .c7 { color: #e58ac9; }
+}
 )css";
 
 std::string printed(const char* format, int decimals, double value) {
@@ -141,6 +158,12 @@ std::string tableRow(const std::vector<Cell>& cells, std::string_view tag) {
            cell.html + "</" + name + ">";
   }
   return row + "</tr>\n";
+}
+
+std::string figureHtml(const std::string& uri, const std::string& caption, int width, int height) {
+  return "<figure><img src=\"" + uri + "\" alt=\"" + escaped(caption) + "\" width=\"" +
+         std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"><figcaption>" +
+         escaped(caption) + "</figcaption></figure>\n";
 }
 
 std::string pageHead(std::string_view title) {

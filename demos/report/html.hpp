@@ -29,6 +29,9 @@ struct Cell {
 };
 std::string tableRow(const std::vector<Cell>& cells, std::string_view tag = "td");
 
+/// An image with its caption.
+std::string figureHtml(const std::string& uri, const std::string& caption, int width, int height);
+
 /// Everything up to and with <body>.
 std::string pageHead(std::string_view title);
 

@@ -18,6 +18,10 @@ std::string sceneAnchor(std::size_t index) {
   return "scene-" + std::to_string(index + 1);
 }
 
+std::string sectionAnchor(std::size_t index) {
+  return "section-" + std::to_string(index + 1);
+}
+
 std::string header(const Report& report) {
   std::string html = "<h1>" + escaped(report.title) + "</h1>\n<p>" + escaped(report.introduction) + "</p>\n";
   const Device& device = report.device;
@@ -33,6 +37,9 @@ std::string header(const Report& report) {
   html += "</dl>\n<nav>";
   for (std::size_t i = 0; i < report.scenes.size(); ++i) {
     html += "<a href=\"#" + sceneAnchor(i) + "\">" + escaped(report.scenes[i].title) + "</a>";
+  }
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    html += "<a href=\"#" + sectionAnchor(i) + "\">" + escaped(report.sections[i].title) + "</a>";
   }
   return html + "</nav>\n";
 }
@@ -77,20 +84,6 @@ std::string overview(const Report& report) {
   return html + "</tbody></table></div>\n";
 }
 
-std::string freeTable(const Table& table) {
-  std::string html = "<h2>" + escaped(table.title) + "</h2>\n<p class=\"soft\">" + escaped(table.note) +
-                     "</p>\n<div class=\"card scroll\"><table><thead>";
-  std::vector<Cell> head;
-  for (const std::string& cell : table.header) head.push_back({escaped(cell)});
-  html += tableRow(head, "th") + "</thead><tbody>\n";
-  for (const auto& cells : table.rows) {
-    std::vector<Cell> row;
-    for (const std::string& cell : cells) row.push_back({escaped(cell)});
-    html += tableRow(row);
-  }
-  return html + "</tbody></table></div>\n";
-}
-
 std::string ownText(const char* text) {
   return text == nullptr ? std::string() : std::string(text);
 }
@@ -105,11 +98,15 @@ Device deviceOf(const DriverRecord& driver) {
 Result<std::string> reportHtml(const Report& report) {
   std::string html = pageHead(report.title) + header(report);
   if (report.scenes.size() > 1) html += overview(report);
-  for (const Table& table : report.tables) html += freeTable(table);
+  for (const Table& table : report.tables)
+    html += "<h2>" + escaped(table.title) + "</h2>\n" + tableHtml(table);
   for (std::size_t i = 0; i < report.scenes.size(); ++i) {
     auto section = sceneSection(report.scenes[i], sceneAnchor(i));
     if (!section) return section.error();
     html += *section;
+  }
+  for (std::size_t i = 0; i < report.sections.size(); ++i) {
+    html += sectionHtml(report.sections[i], sectionAnchor(i));
   }
   return html + "</main>\n</body>\n</html>\n";
 }

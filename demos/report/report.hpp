@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "measure/measurement.hpp"
+#include "report/section.hpp"
 
 namespace halfshadow::report {
 
@@ -28,19 +29,13 @@ struct SceneReport {
   std::vector<measure::TechniqueMeasurement> techniques;
 };
 
-/// A table that the caller fills; the first cell of a row is its name.
-struct Table {
-  std::string title, note;
-  std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;
-};
-
 struct Report {
   std::string title;
   std::string introduction;  ///< one paragraph: what was measured and how
   Device device;
   std::vector<Table> tables;  ///< shown before the scenes
   std::vector<SceneReport> scenes;
+  std::vector<Section> sections;  ///< after the scenes
 };
 
 /// The whole document. Errors: invalidArgument (an image is not of its scene's size).

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "report/plot_axes.hpp"
+
 namespace halfshadow::report {
 
 struct ScatterPoint {
@@ -14,14 +16,10 @@ struct ScatterPoint {
   double x = 0.0, y = 0.0;  ///< both > 0; others are left out
 };
 
-struct ScatterAxes {
-  std::string xTitle, yTitle;
-};
-
 /// Indices of the points that no other point beats in both, by ascending x. Less is better.
 std::vector<std::size_t> paretoFront(const std::vector<ScatterPoint>& points);
 
 /// An <svg> element with grid, labels and the Pareto front; empty when no point can be drawn.
-std::string scatterSvg(const std::vector<ScatterPoint>& points, const ScatterAxes& axes);
+std::string scatterSvg(const std::vector<ScatterPoint>& points, const PlotAxes& axes);
 
 }  // namespace halfshadow::report

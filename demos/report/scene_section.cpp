@@ -8,17 +8,12 @@
 #include "report/html.hpp"
 #include "report/picture.hpp"
 #include "report/scatter_plot.hpp"
+#include "report/section.hpp"
 
 namespace halfshadow::report {
 namespace {
 
 using measure::TechniqueMeasurement;
-
-std::string figure(const std::string& uri, const std::string& caption, int width, int height) {
-  return "<figure><img src=\"" + uri + "\" alt=\"" + escaped(caption) + "\" width=\"" +
-         std::to_string(width) + "\" height=\"" + std::to_string(height) + "\"><figcaption>" +
-         escaped(caption) + "</figcaption></figure>\n";
-}
 
 std::string settingsText(const TechniqueMeasurement& technique) {
   std::string result;
@@ -30,10 +25,6 @@ std::string settingsText(const TechniqueMeasurement& technique) {
   return escaped(result);
 }
 
-std::string timeText(const measure::TimeStatistics& time) {
-  return time.frames > 0 ? threeDigits(time.medianMs) : "–";
-}
-
 Result<std::string> pictures(const SceneReport& scene) {
   const measure::Truth& truth = scene.truth;
   std::string html = "<div class=\"pair\">\n";
@@ -42,12 +33,13 @@ Result<std::string> pictures(const SceneReport& scene) {
     for (std::size_t i = 3; i < opaque.size(); i += 4) opaque[i] = 255;
     auto uri = pngUri(scene.shaded.width, scene.shaded.height, 4, opaque);
     if (!uri) return uri.error();
-    html += figure(*uri, scene.shadedWith.empty() ? "Shaded" : "Shaded with " + scene.shadedWith,
-                   scene.shaded.width, scene.shaded.height);
+    html += figureHtml(*uri, scene.shadedWith.empty() ? "Shaded" : "Shaded with " + scene.shadedWith,
+                       scene.shaded.width, scene.shaded.height);
   }
   auto reference = visibilityUri(truth.width, truth.height, truth.visibility, truth.receivers.kind);
   if (!reference) return reference.error();
-  html += figure(*reference,
+  html +=
+      figureHtml(*reference,
                  "Truth: visibility by ray tracing, " + counted(static_cast<std::uint64_t>(truth.samples)) +
                      " light points a pixel, noise RMSE " + fixed(truth.noiseRmse, 4),
                  truth.width, truth.height);
@@ -64,8 +56,8 @@ Result<std::string> techniqueCard(const SceneReport& scene, const TechniqueMeasu
   auto errors =
       errorMapUri(truth.width, truth.height, technique.visibility, truth.visibility, truth.receivers.kind);
   if (!errors) return errors.error();
-  html += "<div class=\"two\">" + figure(*visibility, "visibility", truth.width, truth.height) +
-          figure(*errors, "error", truth.width, truth.height) + "</div>\n";
+  html += "<div class=\"two\">" + figureHtml(*visibility, "visibility", truth.width, truth.height) +
+          figureHtml(*errors, "error", truth.width, truth.height) + "</div>\n";
   return html + "<div class=\"numbers\">penumbra RMSE <b>" + fixed(technique.error.penumbra.rmse, 4) +
          "</b> · receiver MAE " + fixed(technique.error.receiver.mae, 4) + " · " + timeText(technique.time) +
          " ms</div></div>\n";
@@ -233,9 +225,7 @@ Result<std::string> sceneSection(const SceneReport& scene, const std::string& an
   if (!top) return top.error();
   html +=
       *top + plot(scene, names) + "<h3>Numbers</h3>\n" + numbersTable(scene, names) + "<h3>Pictures</h3>\n";
-  html += "<div class=\"legend\"><span>too dark, −" + fixed(kErrorMapLimit, 1) +
-          "</span><i style=\"background: " + errorMapGradient() + "\"></i><span>+" +
-          fixed(kErrorMapLimit, 1) + ", too light</span></div>\n";
+  html += errorLegend();
   html += "<div class=\"grid\">\n";
   for (std::size_t i = 0; i < scene.techniques.size(); ++i) {
     if (!scene.techniques[i].supported) continue;
