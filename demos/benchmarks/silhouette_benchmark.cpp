@@ -59,6 +59,21 @@ void moveOne(benchmark::State& state, const char* name) {
   state.counters["reused"] = cache.counters().reused;
 }
 
+/// Adjacency of a scene's largest mesh, repairs included.
+void build(benchmark::State& state, const char* name) {
+  const scene::SceneDescription description = scenes::makeBuiltinScene(name).value();
+  const scene::TriangleMesh* largest = description.objects[0].mesh.get();
+  for (const scene::SceneObject& object : description.objects) {
+    if (object.mesh->triangleCount() > largest->triangleCount()) largest = object.mesh.get();
+  }
+  for (auto unused : state) benchmark::DoNotOptimize(scene::HalfEdgeMesh::build(*largest));
+  state.counters["triangles"] = largest->triangleCount();
+}
+
+BENCHMARK_CAPTURE(build, mannequin, "mannequin")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(build, terrain, "terrain")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, mannequin, "mannequin")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, terrain, "terrain")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(extractAll, spheres_cube, "spheres-cube")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(moveOne, spheres_cube, "spheres-cube")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(extractAll, spheres27, "spheres27")->Unit(benchmark::kMillisecond);

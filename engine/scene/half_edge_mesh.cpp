@@ -3,63 +3,17 @@
 #include "scene/half_edge_mesh.hpp"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
+#include "scene/edge_uses.hpp"
 #include "scene/face_clusters.hpp"
+#include "scene/mesh_repair.hpp"
 
 namespace halfshadow::scene {
 namespace {
-struct DirectedEdge {
-  std::uint64_t key = 0;  ///< smaller vertex << 32 | larger vertex
-  std::uint32_t face = 0;
-  bool forward = true;  ///< from the smaller vertex to the larger
-  bool operator<(const DirectedEdge& other) const {
-    return key != other.key ? key < other.key : face < other.face;
-  }
-};
-
-std::vector<DirectedEdge> sortedEdges(const std::vector<glm::uvec3>& faces) {
-  std::vector<DirectedEdge> edges;
-  edges.reserve(faces.size() * 3);
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = faces[f][k], b = faces[f][(k + 1) % 3];
-      edges.push_back({a < b ? a << 32 | b : b << 32 | a, f, a < b});
-    }
-  }
-  std::sort(edges.begin(), edges.end());
-  return edges;
-}
-
-std::uint32_t rootOf(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-  while (parent[i] != i) i = parent[i] = parent[parent[i]];
-  return i;
-}
-
-/// Sets of faces that share an edge, as one number per face, counted in order of first face.
-std::vector<std::uint32_t> connectedParts(const std::vector<DirectedEdge>& edges, std::size_t faceCount,
-                                          std::uint32_t& partCount) {
-  std::vector<std::uint32_t> parent(faceCount);
-  std::iota(parent.begin(), parent.end(), 0u);
-  for (std::size_t i = 1; i < edges.size(); ++i) {
-    if (edges[i].key != edges[i - 1].key) continue;
-    const std::uint32_t a = rootOf(parent, edges[i].face), b = rootOf(parent, edges[i - 1].face);
-    parent[std::max(a, b)] = std::min(a, b);
-  }
-  std::vector<std::uint32_t> partOf(faceCount);
-  partCount = 0;
-  for (std::uint32_t f = 0; f < faceCount; ++f) {
-    const std::uint32_t root = rootOf(parent, f);
-    partOf[f] = root == f ? partCount++ : partOf[root];
-  }
-  return partOf;
-}
-
 /// Pairs the two directions of the edge [first, last); what is left over has no opposite.
-void pairEdge(std::span<const DirectedEdge> uses, std::vector<EdgeRecord>& records) {
-  const auto low = static_cast<std::uint32_t>(uses.front().key >> 32);
-  const auto high = static_cast<std::uint32_t>(uses.front().key);
+void pairEdge(std::span<const EdgeUse> uses, std::vector<EdgeRecord>& records) {
+  const std::uint32_t low = uses.front().low(), high = uses.front().high();
   std::size_t f = 0, b = 0;
   const auto seek = [&](std::size_t& i, bool forward) {
     while (i < uses.size() && uses[i].forward != forward) ++i;
@@ -112,26 +66,15 @@ HalfEdgeMesh HalfEdgeMesh::build(const TriangleMesh& mesh) {
     }
     faces[i / 3][i % 3] = compact[source];
   }
-  std::uint32_t partCount = 0;
-  std::vector<std::uint32_t> partOf = connectedParts(sortedEdges(faces), faces.size(), partCount);
-  std::vector<std::uint32_t> order(faces.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::uint32_t a, std::uint32_t b) { return partOf[a] < partOf[b]; });
   result.copyPositions(mesh);
-  std::vector<glm::uvec3> own;
-  for (std::size_t first = 0, last; first < order.size(); first = last) {
-    own.clear();
-    for (last = first; last < order.size() && partOf[order[last]] == partOf[order[first]]; ++last) {
-      own.push_back(faces[order[last]]);
-    }
-    result.addPart(own, result.parts_.emplace_back());
+  for (const RepairedPart& part : repairParts(std::move(faces), result.positions_, result.repairs_)) {
+    result.addPart(part.faces, part.facts);
   }
   result.computePlanes();
   return result;
 }
 
-void HalfEdgeMesh::addPart(std::span<const glm::uvec3> faces, CasterPart& part) {
+void HalfEdgeMesh::addPart(std::span<const glm::uvec3> faces, CasterPart part) {
   part.firstFace = static_cast<std::uint32_t>(faces_.size());
   part.faceCount = static_cast<std::uint32_t>(faces.size());
   std::vector<glm::uvec3> own(faces.size());
@@ -146,18 +89,15 @@ void HalfEdgeMesh::addPart(std::span<const glm::uvec3> faces, CasterPart& part) 
   }
 
   part.firstEdge = static_cast<std::uint32_t>(edges_.size());
-  const std::vector<DirectedEdge> uses = sortedEdges(own);
-  for (std::size_t first = 0, last; first < uses.size(); first = last) {
-    last = first;
-    while (last < uses.size() && uses[last].key == uses[first].key) ++last;
-    pairEdge({uses.data() + first, last - first}, edges_);
-    part.nonManifoldEdges += last - first > 2;
-  }
+  forEachEdge(edgeUses(own), [&](std::span<const EdgeUse> edge) {
+    pairEdge(edge, edges_);
+    part.nonManifoldEdges += edge.size() > 2;
+  });
   part.edgeCount = static_cast<std::uint32_t>(edges_.size()) - part.firstEdge;
   part.firstGroup = static_cast<std::uint32_t>(groups_.size());
   groupEdges({edges_.data() + part.firstEdge, part.edgeCount}, part, groups_);
   part.groupCount = static_cast<std::uint32_t>(groups_.size()) - part.firstGroup;
-  part.closed = part.boundaryEdges == 0;
+  parts_.push_back(part);
 }
 
 void HalfEdgeMesh::updatePositions(const TriangleMesh& mesh) {
@@ -189,6 +129,30 @@ void HalfEdgeMesh::computePlanes() {
     }
   }
   for (FaceCluster& cluster : clusters_) fitCluster(cluster, faces_, positions_, planes_, origin_);
+}
+
+std::string describe(const CasterPart& part) {
+  std::string text;
+  const auto add = [&](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+  const auto count = [](std::uint32_t n, const char* one, const char* many) {
+    return std::to_string(n) + (n == 1 ? one : many);
+  };
+  if (part.issue == PartIssue::open)
+    add("open: " + count(part.boundaryEdges, " border edge", " border edges"));
+  if (part.issue == PartIssue::nonManifold) {
+    add("a fin, an inner wall or a junction that no closed shell explains: " +
+        count(part.boundaryEdges, " border edge", " border edges"));
+  }
+  if (part.issue == PartIssue::notOrientable) add("its faces cannot all be wound alike");
+  if (part.inward) add("wound inward: taken as outward, but a light inside stays visible");
+  if (part.flippedFaces > 0 && !part.inward)
+    add(count(part.flippedFaces, " face", " faces") + " turned round");
+  if (part.repairedTJunctions > 0) {
+    add(count(part.repairedTJunctions, " T-junction", " T-junctions") + " split");
+  }
+  if (part.filledGaps > 0)
+    add(count(part.filledGaps, " crack or small hole", " cracks or small holes") + " filled");
+  return text;
 }
 
 const HalfEdgeMesh& CasterGeometry::halfEdges(const TriangleMesh& mesh) const {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "scene/bounds.hpp"
@@ -25,12 +26,33 @@ struct EdgeRecord {
   std::uint32_t face = kNoFace, opposite = kNoFace;
 };
 
+/// Why a part is a sheet.
+enum class PartIssue : std::uint8_t {
+  none,           ///< it is closed
+  open,           ///< it has openings of more than 1 % of its area
+  nonManifold,    ///< more than two faces meet at edges and no closed shell could be told from the rest
+  notOrientable,  ///< no choice of windings agrees across all edges
+};
+
+/// What building a HalfEdgeMesh repaired besides the parts' own counts.
+struct MeshRepairs {
+  std::uint32_t mergedVertices = 0;   ///< on open borders, within 1e-6 of the mesh's size of another
+  std::uint32_t backToBackFaces = 0;  ///< same corners as another face, opposite winding; dropped
+};
+
 /// One connected set of faces: what casts one shadow. Its faces and edges are contiguous ranges.
 struct CasterPart {
   std::uint32_t firstFace = 0, faceCount = 0;
   std::uint32_t firstEdge = 0, edgeCount = 0;
   std::uint32_t boundaryEdges = 0;
   std::uint32_t nonManifoldEdges = 0;
+  std::uint32_t repairedTJunctions = 0;  ///< faces split at a vertex that lay on their open edge
+  std::uint32_t flippedFaces = 0;        ///< against the winding of the source mesh
+  std::uint32_t filledGaps = 0;          ///< cracks and small openings closed with faces of their own
+  PartIssue issue = PartIssue::none;
+  /// The source mesh wound all of this closed part inward, like the walls of a room seen from within. The
+  /// part is held outward all the same; but a light inside it lights the room: enclosesLight stays false.
+  bool inward = false;
   std::uint32_t firstCluster = 0, clusterCount = 0;
   std::uint32_t firstGroup = 0, groupCount = 0;
   /// Seen from outside only light-facing faces occlude, once each. An open part is a sheet that occludes from
@@ -57,6 +79,9 @@ struct EdgeGroup {
   std::uint32_t firstEdge = 0, edgeCount = 0;
 };
 
+/// What was repaired and why the part is a sheet, one sentence; empty for a closed part that needed nothing.
+std::string describe(const CasterPart& part);
+
 /// Half-edge adjacency of a TriangleMesh, with its faces and edges sorted by connected part.
 class HalfEdgeMesh {
  public:
@@ -67,16 +92,18 @@ class HalfEdgeMesh {
   std::span<const glm::vec3> positions() const { return positions_; }  ///< of welded vertices
   std::span<const EdgeRecord> edges() const { return edges_; }
   std::span<const CasterPart> parts() const { return parts_; }
-  /// Three welded vertices a face, counter-clockwise seen from outside.
+  /// Three welded vertices a face, counter-clockwise seen from outside. Where the mesh had to be repaired
+  /// they are not its triangles one by one.
   std::span<const glm::uvec3> faces() const { return faces_; }
   /// Signed distance of a point to a face's plane is dot(xyz, point - origin()) + w; xyz is unit.
   std::span<const glm::vec4> facePlanes() const { return planes_; }
   glm::dvec3 origin() const { return origin_; }
   std::span<const FaceCluster> clusters() const { return clusters_; }
   std::span<const EdgeGroup> edgeGroups() const { return groups_; }
+  const MeshRepairs& repairs() const { return repairs_; }
 
  private:
-  void addPart(std::span<const glm::uvec3> faces, CasterPart& part);
+  void addPart(std::span<const glm::uvec3> faces, CasterPart part);
   void copyPositions(const TriangleMesh& mesh);
   void computePlanes();
   std::vector<glm::vec3> positions_;
@@ -87,6 +114,7 @@ class HalfEdgeMesh {
   std::vector<CasterPart> parts_;
   std::vector<FaceCluster> clusters_;
   std::vector<EdgeGroup> groups_;
+  MeshRepairs repairs_;
   glm::dvec3 origin_{0.0};
 };
 

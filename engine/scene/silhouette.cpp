@@ -142,8 +142,8 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
       linkBoundary(mesh, part, side, s);
       chain(s);
       found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
-      found.enclosesLight =
-          part.closed && inside(part.bounds, lightObject) && windingNumber(mesh, part, lightObject) > 0.5;
+      found.enclosesLight = part.closed && !part.inward && inside(part.bounds, lightObject) &&
+                            windingNumber(mesh, part, lightObject) > 0.5;
       if (found.loopCount > 0 || found.enclosesLight) s.parts.push_back(found);
     }
   }
