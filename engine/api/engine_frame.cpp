@@ -38,6 +38,7 @@ Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
 techniques::DrawItem drawItem(const EngineObject& object) {
   return {.mesh = &object.gpu,
           .casts = object.casts,
+          .receives = object.receives,
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,

@@ -39,7 +39,7 @@ struct Support {
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
   const GpuMesh* mesh = nullptr;
-  bool casts = true;
+  bool casts = true, receives = true;
   glm::dmat4 worldFromObject{1.0};
   glm::vec4 baseColor{1.0f};
   const gl::Texture* baseColorTexture = nullptr;

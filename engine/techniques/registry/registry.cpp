@@ -10,6 +10,7 @@
 #include "techniques/pcss/pcss.hpp"
 #include "techniques/pcss_mip/pcss_mip.hpp"
 #include "techniques/sampled/sampled.hpp"
+#include "techniques/shadow_volume/shadow_volume.hpp"
 #include "techniques/shadow_width/shadow_width.hpp"
 #include "techniques/vsm/vsm.hpp"
 
@@ -18,7 +19,7 @@ namespace halfshadow::techniques {
 std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
   for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip,
-                          makeVsm, makeOcclusionTextures, makeShadowWidth, makeSampled}) {
+                          makeVsm, makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;

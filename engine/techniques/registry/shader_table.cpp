@@ -47,6 +47,8 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"fullscreen.vert", "width_box.frag", {}},
       {"fullscreen.vert", "width_tile.frag", {}},
       {"fullscreen.vert", "width_finish.frag", {}},
+      {"volume.vert", "volume.frag", {}},
+      {"fullscreen.vert", "volume.frag", {}},
       receiver("none.frag", {}),
       receiver("hard.frag", {kDepth, kMapReceiver, {"HS_COUNT_SHADOWED"}}),
       receiver("occlusion_textures.frag",
@@ -71,6 +73,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
                                      {"HS_POINT_LIGHT", "HS_PAPER", "HS_ATTENUATION_TEXTURE", "HS_CORNERS",
                                       "HS_CASTING_RECEIVER"}}),
       receiver("screen_counts.frag", {}),
+      receiver("screen_visibility.frag", {}),
       receiver("shade_lights.frag", {}),
   };
 }
