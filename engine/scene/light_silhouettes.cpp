@@ -4,22 +4,31 @@
 
 #include <algorithm>
 
+#include "scene/cut_silhouette.hpp"
+
 namespace halfshadow::scene {
 namespace {
+enum class Turn { keep, reverse };
+
 glm::dvec3 atLeast(const glm::dvec3& halfVector, const glm::dvec3& fallback, double length) {
   const double own = glm::length(halfVector);
   return own >= length ? halfVector : (own > 0.0 ? halfVector * (length / own) : fallback * length);
 }
 
-/// Cuts a closed loop at h = minHeight.
-/// Based on: Sutherland, Hodgman, "Reentrant Polygon Clipping", 1974.
-void clipLoop(const std::vector<glm::dvec3>& loop, double minHeight, std::vector<glm::vec3>& out) {
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const glm::dvec3& a = loop[i];
-    const glm::dvec3& b = loop[i + 1 == loop.size() ? 0 : i + 1];
-    const bool aIn = a.z >= minHeight, bIn = b.z >= minHeight;
-    if (aIn) out.emplace_back(a);
-    if (aIn != bIn) out.emplace_back(glm::mix(a, b, (minHeight - a.z) / (b.z - a.z)));
+/// Appends a closed loop in (a, b, h).
+void appendLoop(const std::vector<glm::dvec3>& loop, Turn turn, LightSilhouettes::Caster& caster,
+                LightSilhouettes& result) {
+  result.loops.push_back(
+      {static_cast<std::uint32_t>(result.points.size()), static_cast<std::uint32_t>(loop.size())});
+  const auto add = [&](const glm::dvec3& p) {
+    result.points.emplace_back(p);
+    caster.low = glm::min(caster.low, result.points.back());
+    caster.high = glm::max(caster.high, result.points.back());
+  };
+  if (turn == Turn::reverse) {
+    std::for_each(loop.rbegin(), loop.rend(), add);
+  } else {
+    std::for_each(loop.begin(), loop.end(), add);
   }
 }
 
@@ -28,15 +37,15 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
                   double minHeight, LightSilhouettes& result) {
   thread_local Silhouette silhouette;
   thread_local std::vector<glm::dvec3> loopPoints;
+  thread_local std::vector<std::vector<glm::dvec3>> cutLoops;
   const glm::dmat3 linear(caster.worldFromObject);
   const glm::dvec3 originWorld(caster.worldFromObject[3]);
   extractSilhouette(*caster.mesh, glm::inverse(linear) * (sourceWorld - originWorld), silhouette);
   result.counters += silhouette.counters;
   // (a, b, h) = lightFromObject · object + offset; the large translations cancel in double.
-  const glm::dmat3 lightFromObject = plane.axes * linear;
-  const glm::dvec3 offset = plane.fromWorld(originWorld);
+  const AffineMap lightFromObject{plane.axes * linear, plane.fromWorld(originWorld)};
   // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
-  const bool reverse = glm::determinant(linear) > 0.0;
+  const Turn turn = glm::determinant(linear) > 0.0 ? Turn::reverse : Turn::keep;
   for (const Silhouette::Part& part : silhouette.parts) {
     LightSilhouettes::Caster placed{.object = caster.object,
                                     .part = part.part,
@@ -45,26 +54,19 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
                                     .high = glm::vec3(-1e30f),
                                     .closed = caster.mesh->parts()[part.part].closed,
                                     .enclosesLight = part.enclosesLight};
-    for (std::uint32_t l = part.firstLoop; l < part.firstLoop + part.loopCount; ++l) {
-      const Silhouette::Loop& loop = silhouette.loops[l];
+    const HeightRange range = heightRange(caster.mesh->parts()[part.part].bounds, lightFromObject, minHeight);
+    if (range == HeightRange::through) {
+      cutLoops.clear();
+      cutSilhouette(*caster.mesh, silhouette, part, lightFromObject, minHeight, cutLoops);
+      for (const std::vector<glm::dvec3>& loop : cutLoops) appendLoop(loop, turn, placed, result);
+    }
+    for (std::uint32_t l = 0; range == HeightRange::above && l < part.loopCount; ++l) {
+      const Silhouette::Loop& loop = silhouette.loops[part.firstLoop + l];
       loopPoints.clear();
       for (std::uint32_t i = 0; i < loop.count; ++i) {
-        const std::uint32_t vertex = silhouette.vertices[loop.first + i];
-        loopPoints.push_back(lightFromObject * glm::dvec3(caster.mesh->positions()[vertex]) + offset);
+        loopPoints.push_back(lightFromObject(caster.mesh->positions()[silhouette.vertices[loop.first + i]]));
       }
-      if (reverse) std::reverse(loopPoints.begin(), loopPoints.end());
-      const auto first = static_cast<std::uint32_t>(result.points.size());
-      clipLoop(loopPoints, minHeight, result.points);
-      const auto count = static_cast<std::uint32_t>(result.points.size()) - first;
-      if (count < 3) {
-        result.points.resize(first);
-        continue;
-      }
-      result.loops.push_back({first, count});
-      for (std::uint32_t i = first; i < first + count; ++i) {
-        placed.low = glm::min(placed.low, result.points[i]);
-        placed.high = glm::max(placed.high, result.points[i]);
-      }
+      appendLoop(loopPoints, turn, placed, result);
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);

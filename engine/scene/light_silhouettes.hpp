@@ -65,7 +65,8 @@ struct LightSilhouettes {
 };
 
 /// Silhouettes seen from the point (sourceA, sourceB) of the light, cut at h = minHeight (> 0, small): what
-/// reaches behind the light is closed along the cut. Replaces the content of `result`.
+/// reaches through the light's plane is closed along the cut through its faces. Replaces the content of
+/// `result`.
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
                       double sourceB, double minHeight, LightSilhouettes& result);
 
