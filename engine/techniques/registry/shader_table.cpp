@@ -50,7 +50,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"volume.vert", "volume.frag", {}},
       {"fullscreen.vert", "volume.frag", {}},
       {"receiver_depth.vert", "receiver_depth.frag", {}},
-      {"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY"}},
+      {"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
       {"fullscreen.vert", "wedge_merge.frag", {}},
       receiver("none.frag", {}),
       receiver("hard.frag", {kDepth, kMapReceiver, {"HS_COUNT_SHADOWED"}}),

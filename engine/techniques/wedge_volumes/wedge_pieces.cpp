@@ -59,22 +59,22 @@ void WedgeExtent::include(const glm::dvec3& abh) {
   highA = std::max(highA, (abh.x + 1.0) / abh.z);
   lowB = std::min(lowB, (abh.y - 1.0) / abh.z);
   highB = std::max(highB, (abh.y + 1.0) / abh.z);
-  nearest = std::min(nearest, abh.z);
+  nearest = std::min(nearest, abh.z), farthest = std::max(farthest, abh.z);
 }
 
 void WedgeExtent::include(const WedgeExtent& other) {
   lowA = std::min(lowA, other.lowA), highA = std::max(highA, other.highA);
   lowB = std::min(lowB, other.lowB), highB = std::max(highB, other.highB);
-  nearest = std::min(nearest, other.nearest);
+  nearest = std::min(nearest, other.nearest), farthest = std::max(farthest, other.farthest);
 }
 
-bool WedgeExtent::meets(const WedgeExtent& other, double farthest) const {
+bool WedgeExtent::meets(const WedgeExtent& other, double end) const {
   const double from = std::max(nearest, other.nearest);
-  if (from > farthest) return false;
+  if (from > end) return false;
   // Sides are linear in h: two rectangles apart on one side at both ends are apart between them.
   const auto apart = [&](const WedgeExtent& left, const WedgeExtent& right) {
     const auto a = glm::lessThan(left.high(from), right.low(from));
-    const auto b = glm::lessThan(left.high(farthest), right.low(farthest));
+    const auto b = glm::lessThan(left.high(end), right.low(end));
     return (a.x && b.x) || (a.y && b.y);
   };
   return !apart(*this, other) && !apart(other, *this);

@@ -20,13 +20,13 @@ inline constexpr int kPieceVertices = 8;
 /// light's borders and the part: on it, (a - 1) / h is the same at caster and receiver.
 struct WedgeExtent {
   double lowA = 1e30, highA = -1e30, lowB = 1e30, highB = -1e30;
-  double nearest = 1e30;
+  double nearest = 1e30, farthest = 0.0;  ///< heights of its own
   void include(const glm::dvec3& abh);
   void include(const WedgeExtent& other);
   glm::dvec2 low(double h) const { return {1.0 + lowA * h, 1.0 + lowB * h}; }
   glm::dvec2 high(double h) const { return {highA * h - 1.0, highB * h - 1.0}; }
-  /// Whether a receiver at a height up to `farthest` can lie in both.
-  bool meets(const WedgeExtent& other, double farthest) const;
+  /// Whether a receiver at a height up to `end` can lie in both.
+  bool meets(const WedgeExtent& other, double end) const;
 };
 
 /// A closed polygon of at most kPieceVertices vertices. The pieces of a loop add up to the loop: chords

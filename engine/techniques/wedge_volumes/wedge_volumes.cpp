@@ -18,9 +18,15 @@ constexpr double kMinHeight = 1e-3;
 /// Lights smaller than this share of the scene's depth have penumbrae below a pixel.
 constexpr double kMinHalfLength = 5e-4;
 
-constexpr int kCorners = 8, kIndices = 36;
+/// Beyond 1 / (1/h - this) all vertices of a piece are nearer to the light than the receiver:
+/// HS_WEDGE_ALL_NEAR.
+constexpr double kAllNear = 1e-3, kAllNearWithoutHighp = 4e-3;
+
+/// Three rectangles a piece: at its nearest vertex, where all vertices are nearer than receivers, at the end.
+/// Between the first two lies the volume whose receivers need clipping, between the last two the rest.
+constexpr int kCorners = 12, kIndices = 36;
 constexpr std::size_t kPiecesPerDraw = 65536 / kCorners;
-/// Corner bits: 1 = high a, 2 = high b, 4 = far. Counter-clockwise from outside.
+/// Corner bits: 1 = high a, 2 = high b, 4 = the farther rectangle. Counter-clockwise from outside.
 constexpr std::array<std::uint16_t, kIndices> kBox = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                                       2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
 
@@ -30,6 +36,8 @@ struct Vertex {
   std::array<float, kPieceVertices> a, b, k;
 };
 constexpr int kStride = sizeof(Vertex);
+/// What rectangles are grown by, so that rounding leaves no receiver outside.
+constexpr double kMargin = 1e-4;
 
 double farthestReceiver(const LightFrame& frame) {
   const glm::dvec3 normal = scene::emissionDirection(frame.light);
@@ -44,7 +52,7 @@ double farthestReceiver(const LightFrame& frame) {
   return farthest;
 }
 
-std::vector<Vertex> vertexStream(const WedgePieces& pieces) {
+std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear) {
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
   for (const WedgePiece& piece : pieces.pieces) {
@@ -57,15 +65,16 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces) {
       vertex.b[i] = static_cast<float>(abh.y / abh.z);
       vertex.k[i] = static_cast<float>(1.0 / abh.z);
     }
-    const double near = piece.extent.nearest;
-    const double margin = 1e-4;
-    for (int corner = 0; corner < kCorners; ++corner) {
-      const double h = corner & 4 ? kFarthest : near;
+    const double nearest = piece.extent.nearest;
+    const double last = 1.0 / std::max(1.0 / piece.extent.farthest - allNear, 1.0 / kFarthest);
+    for (const double h : {nearest, last, kFarthest}) {
       const glm::dvec2 low = piece.extent.low(h), high = piece.extent.high(h);
-      const glm::dvec2 grown = margin * (high - low) + margin;
-      vertex.corner = glm::dvec3(corner & 1 ? high.x + grown.x : low.x - grown.x,
-                                 corner & 2 ? high.y + grown.y : low.y - grown.y, h);
-      stream.push_back(vertex);
+      const glm::dvec2 grown = kMargin * (high - low + 1.0);
+      for (int corner = 0; corner < 4; ++corner) {
+        vertex.corner = glm::dvec3(corner & 1 ? high.x + grown.x : low.x - grown.x,
+                                   corner & 2 ? high.y + grown.y : low.y - grown.y, h);
+        stream.push_back(vertex);
+      }
     }
   }
   return stream;
@@ -123,14 +132,15 @@ bool eyeOutside(const WedgeExtent& extent, const std::array<glm::dvec3, 5>& hull
   return std::ranges::any_of(outside, [](bool side) { return side; });
 }
 
-void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::DrawState& state,
+void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::DrawState& state, WedgePart part,
                 std::size_t first, std::size_t count) {
   using gl::VertexAttribute;
   constexpr VertexAttribute kVectors[] = {VertexAttribute::extra0, VertexAttribute::extra1,
                                           VertexAttribute::extra2, VertexAttribute::extra3,
                                           VertexAttribute::extra4, VertexAttribute::normal};
   while (count > 0) {
-    const std::size_t now = std::min(count, kPiecesPerDraw), offset = first * kCorners * kStride;
+    const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 4 : 0;
+    const std::size_t offset = (first * kCorners + skipped) * kStride;
     gl::AttributeBinding bindings[7];
     bindings[0] = {VertexAttribute::position,  &volumes.vertices, 3,
                    gl::AttributeType::float32, kStride,           offset};
@@ -164,7 +174,8 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   scene::lightSilhouettes(casters, volumes.plane, 0.0, 0.0, kMinHeight, silhouettes);
   makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
   if (!volumes.pieces.pieces.empty()) {
-    const std::vector<Vertex> stream = vertexStream(volumes.pieces);
+    const bool highp = frame.capabilities.has(gl::Capability::highp);
+    const std::vector<Vertex> stream = vertexStream(volumes.pieces, highp ? kAllNear : kAllNearWithoutHighp);
     if (Status s = upload(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                           std::as_bytes(std::span(stream)));
         !s) {
@@ -179,7 +190,7 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
 
 void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
                       const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
-                      gl::DrawState state) {
+                      WedgePart part, gl::DrawState state) {
   gl::Encoder& encoder = context.encoder;
   const scene::LightPlane& plane = volumes.plane;
   bindReceiverPosition(context, program, depth, receiverRays(view, depth, plane.axes, plane.centerWorld));
@@ -188,22 +199,30 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
                                   glm::dvec4(alongNormal, 0), glm::dvec4(plane.centerWorld, 1));
   program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
   const auto hull = eyeHull(view, plane);
+  if (part == WedgePart::beside) {
+    // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject
+    // it.
+    state.cull = gl::Cull::front;
+    state.depth = {.test = gl::Compare::gequal};
+  }
   const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
     // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
     // those that face away stand behind it.
-    state.cull = outside ? gl::Cull::back : gl::Cull::front;
-    state.depth = {.test = outside ? gl::Compare::lequal : gl::Compare::gequal};
-    if (end > first) drawPieces(encoder, volumes, state, first, end - first);
+    if (part == WedgePart::beyond) {
+      state.cull = outside ? gl::Cull::back : gl::Cull::front;
+      state.depth = {.test = outside ? gl::Compare::lequal : gl::Compare::gequal};
+    }
+    if (end > first) drawPieces(encoder, volumes, state, part, first, end - first);
   };
   std::size_t first = 0, end = 0;
   bool outside = true;
   for (const CasterRange& range : casters) {
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
       const WedgeCaster& caster = volumes.pieces.casters[i];
-      const bool callerOutside = eyeOutside(caster.extent, hull);
-      if (callerOutside != outside || caster.firstPiece != end) {
+      const bool casterOutside = eyeOutside(caster.extent, hull);
+      if (casterOutside != outside || caster.firstPiece != end) {
         flush(outside, first, end);
-        first = caster.firstPiece, outside = callerOutside;
+        first = caster.firstPiece, outside = casterOutside;
       }
       end = caster.firstPiece + caster.pieceCount;
     }

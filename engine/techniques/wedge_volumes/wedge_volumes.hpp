@@ -24,6 +24,12 @@ struct CasterRange {
   std::uint32_t first = 0, count = 0;
 };
 
+/// Receivers of a piece, told apart by their height; each has its own program.
+enum class WedgePart {
+  beside,  ///< not all of the piece is nearer to the light: HS_WEDGE_CLIP
+  beyond   ///< all of it is
+};
+
 /// Keeps the wedges of each light between frames.
 class WedgeVolumeCache {
  public:
@@ -42,6 +48,6 @@ class WedgeVolumeCache {
 /// `state.depth` and `state.cull` are set here.
 void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
                       const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
-                      gl::DrawState state);
+                      WedgePart part, gl::DrawState state);
 
 }  // namespace halfshadow::techniques

@@ -52,13 +52,30 @@ struct Wedges {
   const WedgeVolumes* volumes = nullptr;
   ReceiverDepth depth;
 };
+struct PiecePrograms {
+  gl::Program* beside = nullptr;
+  gl::Program* beyond = nullptr;
+};
+Result<PiecePrograms> piecePrograms(const LightFrame& frame, std::vector<std::string> defines) {
+  PiecePrograms programs;
+  for (gl::Program** program : {&programs.beyond, &programs.beside}) {
+    auto linked = frame.programs.get({"wedge_volume.vert", "wedge_piece.frag", defines});
+    if (!linked) return linked.error();
+    *program = *linked;
+    defines.push_back("HS_WEDGE_CLIP");
+  }
+  return programs;
+}
 
-void addVolumes(framegraph::PassContext& context, gl::Program& program, const Wedges& wedges,
+void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs, const Wedges& wedges,
                 const View& view, std::span<const CasterRange> casters, const gl::BlendState& blend,
                 float steps) {
-  context.encoder.useProgram(program);
-  program.set(context.encoder.context(), "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
-  drawWedgeVolumes(context, program, *wedges.volumes, wedges.depth, view, casters, {.blend = blend});
+  for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
+    gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
+    context.encoder.useProgram(program);
+    program.set(context.encoder.context(), "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
+    drawWedgeVolumes(context, program, *wedges.volumes, wedges.depth, view, casters, part, {.blend = blend});
+  }
 }
 
 /// Shared by both: wedges that live on between frames.
@@ -98,17 +115,17 @@ class AdditiveWedges final : public WedgeTechnique {
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto wedges = wedgesOf(frame);
     if (!wedges) return wedges.error();
-    auto program = frame.programs.get({"wedge_volume.vert", "wedge_piece.frag", {}});
-    if (!program) return program.error();
+    auto programs = piecePrograms(frame, {});
+    if (!programs) return programs.error();
     const ResourceId sums = screenImage(frame, "wedge sums");
     framegraph::PassDesc pass{.name = passName(frame, "wedges"),
                               .stage = framegraph::PassStage::receiverPrepass,
                               .reads = {wedges->depth.packed},
                               .writes = targets(sums, wedges->depth, InitialContent::clear, 0.0f)};
-    pass.execute = [program = *program, wedges = *wedges,
+    pass.execute = [programs = *programs, wedges = *wedges,
                     &view = frame.view](framegraph::PassContext& context) {
       const CasterRange all{0, static_cast<std::uint32_t>(wedges.volumes->pieces.casters.size())};
-      addVolumes(context, *program, wedges, view, {&all, 1}, kAdd, kStepsOfAll);
+      addVolumes(context, programs, wedges, view, {&all, 1}, kAdd, kStepsOfAll);
     };
     frame.graph.addPass(std::move(pass));
     return screenShading(sums, kStepsOfAll);
@@ -158,17 +175,17 @@ class ProbabilisticWedges final : public WedgeTechnique {
 
   /// Casters that are one piece need no sum: blending multiplies them.
   static Status declareWholeCasters(const LightFrame& frame, const Wedges& wedges, ResourceId visibility) {
-    auto program = frame.programs.get({"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY"}});
-    if (!program) return program.error();
+    auto programs = piecePrograms(frame, {"HS_WEDGE_MULTIPLY"});
+    if (!programs) return programs.error();
     framegraph::PassDesc pass{.name = passName(frame, "wedges of whole casters"),
                               .stage = framegraph::PassStage::receiverPrepass,
                               .reads = {wedges.depth.packed},
                               .writes = targets(visibility, wedges.depth, InitialContent::clear, 1.0f)};
-    pass.execute = [program = *program, wedges, &view = frame.view,
+    pass.execute = [programs = *programs, wedges, &view = frame.view,
                     casters = castersWhere(wedges.volumes->pieces, [](const WedgeCaster& caster) {
                       return caster.pieceCount == 1;
                     })](framegraph::PassContext& context) {
-      addVolumes(context, *program, wedges, view, casters, kMultiply, kStepsOfOne);
+      addVolumes(context, programs, wedges, view, casters, kMultiply, kStepsOfOne);
     };
     frame.graph.addPass(std::move(pass));
     return {};
@@ -176,8 +193,8 @@ class ProbabilisticWedges final : public WedgeTechnique {
 
   static Status declareBatch(const LightFrame& frame, const Wedges& wedges, std::uint32_t batch,
                              ResourceId sums, ResourceId visibility) {
-    auto program = frame.programs.get({"wedge_volume.vert", "wedge_piece.frag", {}});
-    if (!program) return program.error();
+    auto programs = piecePrograms(frame, {});
+    if (!programs) return programs.error();
     auto merge = frame.programs.get({"fullscreen.vert", "wedge_merge.frag", {}});
     if (!merge) return merge.error();
     const std::string number = std::to_string(batch);
@@ -186,11 +203,11 @@ class ProbabilisticWedges final : public WedgeTechnique {
                              .reads = {wedges.depth.packed},
                              .writes = targets(sums, wedges.depth, InitialContent::clear, 0.0f)};
     if (batch > 0) add.rebindReason = "casters of different batches may shadow the same receiver";
-    add.execute = [program = *program, wedges, &view = frame.view,
+    add.execute = [programs = *programs, wedges, &view = frame.view,
                    casters = castersWhere(wedges.volumes->pieces, [batch](const WedgeCaster& caster) {
                      return caster.pieceCount > 1 && caster.batch == batch;
                    })](framegraph::PassContext& context) {
-      addVolumes(context, *program, wedges, view, casters, kAdd, kStepsOfOne);
+      addVolumes(context, programs, wedges, view, casters, kAdd, kStepsOfOne);
     };
     frame.graph.addPass(std::move(add));
 
