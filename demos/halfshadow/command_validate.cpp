@@ -35,31 +35,34 @@ struct Expectation {
 };
 
 std::vector<Expectation> expectations(const scenes::ValidationReport& report) {
-  std::string nonManifold;
-  for (const scenes::ObjectReport& object : report.objects) {
-    if (object.casts && object.nonManifoldEdges > 0) nonManifold = object.name;
-  }
-  const std::string open =
-      std::to_string(report.openCasters) + " of " + std::to_string(report.casters) + " casters";
-  std::vector<Expectation> result;
-  result.push_back({"none, hard, pcf*, pcss*, vsm, sampled, occlusion-textures, shadow-width",
-                    report.casters == 0
-                        ? "no casters: every pixel is lit"
-                        : "work: they draw triangles into maps and ask nothing of the surface"});
+  constexpr const char* kMaps = "none, hard, pcf*, pcss*, vsm, sampled, occlusion-textures, shadow-width";
+  constexpr const char* kVolumes = "shadow-volume";
+  constexpr const char* kWedges = "wedges*";
   if (report.casters == 0) {
-    result.push_back({"silhouette techniques (none in this version)", "no casters: every pixel is lit"});
-  } else if (report.openCasters > 0) {
-    result.push_back({"silhouette techniques (none in this version)",
-                      open + " are open: their boundaries count as silhouette "
-                             "edges, two-sided; close them for exact counts"});
-  } else {
-    result.push_back({"silhouette techniques (none in this version)",
-                      "would work: all casters are closed, so silhouettes are closed loops"});
+    const std::string lit = "no casters: every pixel is lit";
+    return {{kMaps, lit}, {kVolumes, lit}, {kWedges, lit}};
   }
-  if (!nonManifold.empty()) {
-    result.push_back({"silhouette techniques (none in this version)",
-                      "edges with more than two triangles (\"" + nonManifold +
-                          "\") can leave silhouettes open; split the mesh there"});
+  std::vector<Expectation> result{
+      {kMaps, "work: they draw triangles into maps and ask nothing of the surface"}};
+  const std::string parts =
+      std::to_string(report.casterParts) + (report.casterParts == 1 ? " part" : " parts");
+  if (report.openCasters == 0) {
+    result.push_back({kVolumes, "works: all casters are closed, so silhouettes are closed loops"});
+    result.push_back(
+        {kWedges, "work: all casters are closed; " + parts + ", each one occluder with its own penumbra"});
+  } else {
+    const std::string open = std::to_string(report.openCasters) + " of " + std::to_string(report.casters) +
+                             " casters are open: their boundaries count as silhouette edges, two-sided; ";
+    result.push_back({kVolumes, open + "exact"});
+    result.push_back({kWedges, open + "the sides that face the light and those that face away are combined "
+                                      "like two casters, a little too dark where they lie close together"});
+  }
+  if (report.repairedCasters > 0) {
+    const Expectation repaired{kVolumes, std::to_string(report.repairedCasters) +
+                                             " of the casters mended for silhouettes; meshes are drawn as "
+                                             "they are"};
+    result.push_back(repaired);
+    result.push_back({kWedges, repaired.outcome});
   }
   return result;
 }
@@ -76,14 +79,23 @@ Json objectJson(const scenes::ObjectReport& object) {
           {"vertices", object.vertices},
           {"welded_vertices", object.weldedVertices},
           {"closed", object.closed},
+          {"parts", object.parts},
+          {"sheets", object.sheets},
           {"boundary_edges", object.boundaryEdges},
           {"non_manifold_edges", object.nonManifoldEdges},
+          {"repaired",
+           {{"merged_vertices", object.mergedVertices},
+            {"back_to_back_faces", object.backToBackFaces},
+            {"t_junctions", object.repairedTJunctions},
+            {"flipped_faces", object.flippedFaces},
+            {"filled_gaps", object.filledGaps}}},
           {"degenerate_dropped", object.degenerateDropped},
           {"duplicate_dropped", object.duplicateDropped},
           {"signed_volume", object.signedVolumeWorld},
           {"bounds", boundsJson(object.boundsWorld)},
           {"casts", object.casts},
           {"receives", object.receives},
+          {"repairs", object.repairs},
           {"warnings", object.warnings}};
 }
 
@@ -92,6 +104,8 @@ Json reportJson(const scenes::ValidationReport& report) {
             {"triangles", report.triangles},
             {"casters", report.casters},
             {"open_casters", report.openCasters},
+            {"repaired_casters", report.repairedCasters},
+            {"caster_parts", report.casterParts},
             {"bounds", boundsJson(report.boundsWorld)},
             {"caster_bounds", boundsJson(report.casterBoundsWorld)},
             {"warnings", report.warnings}};
@@ -105,15 +119,17 @@ Json reportJson(const scenes::ValidationReport& report) {
 }
 
 void printReport(const scenes::ValidationReport& report) {
-  std::printf("%s: %llu triangles, %zu objects, %u cast shadows, %u of those are open\n", report.name.c_str(),
-              static_cast<unsigned long long>(report.triangles), report.objects.size(), report.casters,
+  std::printf("%s: %llu triangles, %zu objects, %u cast shadows in %u %s, %u of them are open\n",
+              report.name.c_str(), static_cast<unsigned long long>(report.triangles), report.objects.size(),
+              report.casters, report.casterParts, report.casterParts == 1 ? "part" : "parts",
               report.openCasters);
-  TextTable table{.header = {"object", "triangles", "welded", "closed", "boundary", "non-manifold", "dropped",
-                             "casts", "receives"}};
+  TextTable table{.header = {"object", "triangles", "welded", "parts", "closed", "boundary", "non-manifold",
+                             "dropped", "casts", "receives"}};
   for (const scenes::ObjectReport& object : report.objects) {
     table.rows.push_back({object.name, std::to_string(object.triangles),
-                          std::to_string(object.weldedVertices), object.closed ? "yes" : "no",
-                          std::to_string(object.boundaryEdges), std::to_string(object.nonManifoldEdges),
+                          std::to_string(object.weldedVertices), std::to_string(object.parts),
+                          object.closed ? "yes" : "no", std::to_string(object.boundaryEdges),
+                          std::to_string(object.nonManifoldEdges),
                           std::to_string(object.degenerateDropped + object.duplicateDropped),
                           object.casts ? "yes" : "no", object.receives ? "yes" : "no"});
   }
@@ -122,6 +138,11 @@ void printReport(const scenes::ValidationReport& report) {
   for (const scenes::ObjectReport& object : report.objects) {
     for (const std::string& warning : object.warnings) {
       std::printf("warning: %s: %s\n", object.name.c_str(), warning.c_str());
+    }
+  }
+  for (const scenes::ObjectReport& object : report.objects) {
+    for (const std::string& repair : object.repairs) {
+      std::printf("mended: %s: %s\n", object.name.c_str(), repair.c_str());
     }
   }
   for (const Expectation& e : expectations(report)) std::printf("%s: %s\n", e.techniques, e.outcome.c_str());

@@ -74,6 +74,10 @@ TEST_F(CliTest, ScenesAreListedWithTheirSource) {
 TEST_F(CliTest, ValidateTellsClosedFromOpen) {
   const json box = runJson({"validate", "builtin:box"});
   EXPECT_EQ(box["open_casters"], 0);
+  EXPECT_EQ(box["caster_parts"], 1);
+  EXPECT_EQ(box["repaired_casters"], 0);
+  // One line each for techniques of maps, of volumes and of wedges.
+  EXPECT_EQ(box["techniques"].size(), 3u);
   const json sheets = runJson({"validate", "builtin:sheets"});
   EXPECT_GT(sheets["open_casters"].get<int>(), 0);
   EXPECT_FALSE(sheets["techniques"].empty());

@@ -48,6 +48,33 @@ TEST(Validate, NamesOpenCastersAndInsideOutOnes) {
   EXPECT_EQ(report.objects[0].degenerateDropped, 1u);
 }
 
+TEST(Validate, TellsWhatWasMendedForSilhouettes) {
+  // A tetrahedron whose base is two triangles that meet at the middle of an edge, one of them flipped, and a
+  // fin on another edge.
+  testing::GltfWriter writer;
+  const int position = writer.addAccessor(
+      std::vector<float>{0, 0, 0, 2, 0, 0, 0, 2, 0, 0, 0, 2, 1, 0, 0, -1, -1, 3}, testing::kFloat, "VEC3", 3);
+  const int indices =
+      writer.addAccessor(std::vector<std::uint8_t>{0, 2, 4, 4, 1, 2, 0, 1, 3, 0, 3, 2, 1, 2, 3, 0, 3, 5},
+                         testing::kUnsignedByte, "SCALAR", 1);
+  writer.addPrimitive({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+  const auto loaded = writer.load();
+  ASSERT_TRUE(loaded.ok());
+  const ValidationReport report = validateScene(*loaded);
+  const ObjectReport& object = report.objects[0];
+  EXPECT_EQ(object.parts, 2u);
+  EXPECT_EQ(object.sheets, 1u);
+  EXPECT_EQ(object.looseParts, 1u);
+  EXPECT_EQ(object.repairedTJunctions, 1u);
+  EXPECT_EQ(object.flippedFaces, 1u);
+  EXPECT_EQ(object.nonManifoldEdges, 1u);
+  EXPECT_EQ(report.repairedCasters, 1u);
+  EXPECT_EQ(report.openCasters, 1u);
+  EXPECT_TRUE(anyContains(object.repairs, "T-junction"));
+  EXPECT_TRUE(anyContains(object.repairs, "turned round"));
+  EXPECT_TRUE(anyContains(object.warnings, "fins"));
+}
+
 TEST(Validate, WarnsOfExtremeScale) {
   EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@scale=1e6")).warnings, "radius"));
   EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@shift=1e7")).objects[0].warnings, "origin"));
