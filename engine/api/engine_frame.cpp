@@ -21,6 +21,11 @@ scene::Camera toCamera(const CameraDesc& desc) {
           .farDistance = desc.farDistance};
 }
 
+double nearReach(const scene::Camera& camera, double aspect) {
+  const double tangent = std::tan(0.5 * camera.verticalFovRadians);
+  return camera.nearDistance * std::sqrt(1.0 + tangent * tangent * (1.0 + aspect * aspect));
+}
+
 Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
   const int limit = std::min(limits.textureSize, limits.renderbufferSize);
   if (target.width <= 0 || target.height <= 0) {
@@ -262,7 +267,8 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   frame->view = {.clipFromWorld = scene::clipFromView(camera, aspect) * scene::viewFromWorld(camera),
                  .eyeWorld = camera.eyeWorld,
                  .width = desc.target.width,
-                 .height = desc.target.height};
+                 .height = desc.target.height,
+                 .nearReach = nearReach(camera, aspect)};
 
   std::vector<const EngineObject*> sceneObjects;
   std::vector<planner::PlannedObject> planned;

@@ -185,7 +185,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
       encoder.bindTextures({&binding, 1});
     }
     setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs);
-    state.cull = hiddenFaces(item, view.eyeWorld);
+    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state,
                     kind.facets ? GpuMesh::Streams::facet
                     : inputs    ? GpuMesh::Streams::shading

@@ -4,9 +4,9 @@
 
 namespace halfshadow::techniques {
 
-gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld) {
-  const bool inside = glm::all(glm::greaterThanEqual(eyeWorld, item.boundsWorld.low)) &&
-                      glm::all(glm::lessThanEqual(eyeWorld, item.boundsWorld.high));
+gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach) {
+  const bool inside = glm::all(glm::greaterThanEqual(eyeWorld, item.boundsWorld.low - nearReach)) &&
+                      glm::all(glm::lessThanEqual(eyeWorld, item.boundsWorld.high + nearReach));
   if (!item.closed || inside) return gl::Cull::none;
   return item.mirrored ? gl::Cull::front : gl::Cull::back;
 }

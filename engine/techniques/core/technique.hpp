@@ -53,15 +53,17 @@ struct DrawItem {
   const scene::HalfEdgeMesh& halfEdges() const { return geometry->halfEdges(*sourceMesh); }
 };
 
-/// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects around which the eye
-/// is outside. Halves rasterisation, which is most of the cost of dense meshes.
-gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld);
+/// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects that are farther than
+/// `nearReach`, so that no near plane opens them. Halves rasterisation, which is most of the cost of dense
+/// meshes.
+gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach = 0.0);
 
 /// The screen side of a frame.
 struct View {
   glm::dmat4 clipFromWorld{1.0};
   glm::dvec3 eyeWorld{0.0};
   int width = 0, height = 0;
+  double nearReach = 0.0;  ///< from the eye to the near plane's corners, world units
 };
 
 /// How receiver fragments that need the filter are kept apart from those that do not.

@@ -105,10 +105,10 @@ class ShadowVolume final : public Technique {
         {.resource = depth,
          .point = stencil ? framegraph::AttachmentPoint::depthStencil : framegraph::AttachmentPoint::depth,
          .clear = clear}};
-    pass.execute = [view, programs, counter, jobs = jobs_, eye = frame.view.eyeWorld,
+    pass.execute = [view, programs, counter, jobs = jobs_,
                     receivers = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
                        framegraph::PassContext& context) {
-      drawVolumeReceivers(context, programs, view, receivers, eye);
+      drawVolumeReceivers(context, programs, view, receivers);
       for (const LightJob& job : *jobs) countVolumes(context, programs, job.volumes, counter, job.channel);
     };
     frame.graph.addPass(std::move(pass));

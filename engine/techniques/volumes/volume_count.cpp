@@ -14,9 +14,10 @@ using gl::Compare;
 using gl::Cull;
 using gl::StencilOp;
 
-/// Moves volumes back by a few steps of depth and a twentieth of a pixel: a receiver in the plane of a cap is
-/// then in front of it, whatever the rounding of two different triangles.
-const glm::vec2 kBehindCoplanar(0.05f, 4.0f);
+/// Moves volumes back by a few steps of depth: a receiver in the plane of a cap is then in front of it,
+/// however two different triangles round. Nothing for slopes: of two sides seen edge-on it would move only
+/// one.
+const glm::vec2 kBehindCoplanar(0.0f, 4.0f);
 /// Steps of one stored level, safe from rounding and truncation alike in either direction.
 constexpr float kIncrement = 1.02f / 255.0f, kDecrement = 0.98f / 255.0f;
 
@@ -242,8 +243,7 @@ Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& v
 }
 
 void drawVolumeReceivers(framegraph::PassContext& context, const VolumePrograms& programs,
-                         const VolumeView& view, std::span<const DrawItem> receivers,
-                         const glm::dvec3& eyeWorld) {
+                         const VolumeView& view, std::span<const DrawItem> receivers) {
   gl::DrawState state;
   state.depth = {.test = Compare::less, .write = true};
   state.colorMask.fill(false);
@@ -251,7 +251,7 @@ void drawVolumeReceivers(framegraph::PassContext& context, const VolumePrograms&
   for (const DrawItem& item : receivers) {
     programs.volume->set(context.encoder.context(), "u_clipFromObject",
                          glm::mat4(view.clipFromWorld * item.worldFromObject));
-    state.cull = hiddenFaces(item, eyeWorld);
+    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(context.encoder, state, GpuMesh::Streams::positions);
   }
 }

@@ -56,8 +56,7 @@ Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& v
 
 /// The receivers' depths as volumes meet them: draw into a cleared depth buffer, then count.
 void drawVolumeReceivers(framegraph::PassContext& context, const VolumePrograms& programs,
-                         const VolumeView& view, std::span<const DrawItem> receivers,
-                         const glm::dvec3& eyeWorld);
+                         const VolumeView& view, std::span<const DrawItem> receivers);
 
 /// Counts into the pass's stencil, zero before and after, and writes black to `channel` (0-3) of its colour
 /// where the light's centre is hidden. Or, by blending, counts in that channel, zero before: afterwards it is

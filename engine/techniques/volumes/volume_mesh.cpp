@@ -22,9 +22,9 @@ int layersOfFace(const Silhouette& silhouette, std::uint32_t face, bool sheet) {
 
 /// Boundary of the faces [first, first + count) of a part, each counted as often as it covers.
 void appendBoundary(const HalfEdgeMesh& mesh, const scene::CasterPart& part, const Silhouette& silhouette,
-                    const VolumeChunk::Faces& faces, std::vector<glm::uvec2>& edges) {
+                    const VolumeChunk::Group& faces, std::vector<glm::uvec2>& edges) {
   const auto layersOf = [&](std::uint32_t face) {
-    if (face == kNoFace || face < faces.first || face >= faces.first + faces.count) return 0;
+    if (face == kNoFace || face < faces.firstFace || face >= faces.firstFace + faces.faceCount) return 0;
     return layersOfFace(silhouette, face, faces.sheet);
   };
   for (const scene::EdgeRecord& edge : mesh.edges().subspan(part.firstEdge, part.edgeCount)) {
@@ -87,66 +87,64 @@ class Splitter {
   /// `found`: the part's entries of the silhouette, perhaps none.
   void addPart(const scene::CasterPart& part, std::span<const Silhouette::Part> found) {
     const bool enclosesLight = std::ranges::any_of(found, &Silhouette::Part::enclosesLight);
-    VolumeChunk chunk;
     // Seen from inside, a closed caster is a sheet around the light.
-    chunk.faces = {{part.firstFace, part.faceCount, !part.closed || enclosesLight}};
+    const VolumeChunk::Group group{
+        .firstFace = part.firstFace, .faceCount = part.faceCount, .sheet = !part.closed || enclosesLight};
+    std::vector<glm::uvec2> edges;
     if (enclosesLight) {
-      appendBoundary(mesh_, part, silhouette_, chunk.faces.front(), chunk.edges);
+      appendBoundary(mesh_, part, silhouette_, group, edges);
     } else {
-      for (const Silhouette::Part& entry : found) appendLoops(silhouette_, entry, chunk.edges);
+      for (const Silhouette::Part& entry : found) appendLoops(silhouette_, entry, edges);
     }
     // Without edges it hides nothing, or surrounds the light.
-    if (chunk.edges.empty() && covering(chunk.faces.front()) == 0) return;
-    add(part, std::move(chunk), part.bounds);
+    if (edges.empty() && covering(group) == 0) return;
+    add(part, group, edges, part.bounds);
   }
 
   std::vector<VolumeChunk> take() { return std::move(chunks_); }
 
  private:
-  void add(const scene::CasterPart& part, VolumeChunk chunk, const scene::Bounds& bounds) {
-    chunk.withinHemisphere = withinHemisphere(bounds, light_);
-    const VolumeChunk::Faces faces = chunk.faces.front();
-    chunk.layers = chunk.withinHemisphere ? risingEdges(mesh_, chunk.edges, light_, bounds.center() - light_)
-                                          : covering(faces);
-    if (chunk.layers <= maxLayers_ || faces.count <= 1) {
-      append(std::move(chunk));
+  void add(const scene::CasterPart& part, VolumeChunk::Group group, const std::vector<glm::uvec2>& edges,
+           const scene::Bounds& bounds) {
+    group.withinHemisphere = withinHemisphere(bounds, light_);
+    const int layers = group.withinHemisphere ? risingEdges(mesh_, edges, light_, bounds.center() - light_)
+                                              : covering(group);
+    if (layers <= maxLayers_ || group.faceCount <= 1) {
+      append(group, edges, layers);
       return;
     }
-    const std::uint32_t half = faces.count / 2;
-    for (const VolumeChunk::Faces& part2 :
-         {VolumeChunk::Faces{faces.first, half, faces.sheet},
-          VolumeChunk::Faces{faces.first + half, faces.count - half, faces.sheet}}) {
-      VolumeChunk piece;
-      piece.faces = {part2};
-      appendBoundary(mesh_, part, silhouette_, part2, piece.edges);
-      scene::Bounds own;
-      for (std::uint32_t f = part2.first; f < part2.first + part2.count; ++f) {
-        for (int k = 0; k < 3; ++k) own.include(glm::dvec3(mesh_.positions()[mesh_.faces()[f][k]]));
+    VolumeChunk::Group halves[2] = {group, group};
+    halves[0].faceCount = group.faceCount / 2;
+    halves[1].firstFace += halves[0].faceCount;
+    halves[1].faceCount -= halves[0].faceCount;
+    for (const VolumeChunk::Group& half : halves) {
+      std::vector<glm::uvec2> own;
+      appendBoundary(mesh_, part, silhouette_, half, own);
+      scene::Bounds ownBounds;
+      for (std::uint32_t f = half.firstFace; f < half.firstFace + half.faceCount; ++f) {
+        for (int k = 0; k < 3; ++k) ownBounds.include(glm::dvec3(mesh_.positions()[mesh_.faces()[f][k]]));
       }
-      add(part, std::move(piece), own);
+      add(part, half, own, ownBounds);
     }
   }
 
   /// A ray meets a face at most once.
-  int covering(const VolumeChunk::Faces& faces) const {
+  int covering(const VolumeChunk::Group& group) const {
     int count = 0;
-    for (std::uint32_t f = faces.first; f < faces.first + faces.count; ++f) {
-      count += layersOfFace(silhouette_, f, faces.sheet) != 0;
+    for (std::uint32_t f = group.firstFace; f < group.firstFace + group.faceCount; ++f) {
+      count += layersOfFace(silhouette_, f, group.sheet) != 0;
     }
     return count;
   }
 
-  void append(VolumeChunk chunk) {
-    if (!chunks_.empty()) {
-      VolumeChunk& last = chunks_.back();
-      if (last.withinHemisphere == chunk.withinHemisphere && last.layers + chunk.layers <= maxLayers_) {
-        last.faces.insert(last.faces.end(), chunk.faces.begin(), chunk.faces.end());
-        last.edges.insert(last.edges.end(), chunk.edges.begin(), chunk.edges.end());
-        last.layers += chunk.layers;
-        return;
-      }
-    }
-    chunks_.push_back(std::move(chunk));
+  void append(VolumeChunk::Group group, const std::vector<glm::uvec2>& edges, int layers) {
+    if (chunks_.empty() || chunks_.back().layers + layers > maxLayers_) chunks_.emplace_back();
+    VolumeChunk& chunk = chunks_.back();
+    group.firstEdge = static_cast<std::uint32_t>(chunk.edges.size());
+    group.edgeCount = static_cast<std::uint32_t>(edges.size());
+    chunk.groups.push_back(group);
+    chunk.edges.insert(chunk.edges.end(), edges.begin(), edges.end());
+    chunk.layers += layers;
   }
 
   const HalfEdgeMesh& mesh_;
@@ -212,23 +210,21 @@ class Builder {
 };
 
 void appendCaps(const HalfEdgeMesh& mesh, const Silhouette& silhouette, const VolumeChunk& chunk,
-                Builder& builder) {
-  for (const VolumeChunk::Faces& faces : chunk.faces) {
-    for (std::uint32_t f = faces.first; f < faces.first + faces.count; ++f) {
-      const int layers = layersOfFace(silhouette, f, faces.sheet);
-      if (layers == 0) continue;
-      const glm::uvec3& face = mesh.faces()[f];
-      const std::uint32_t second = layers > 0 ? face.y : face.z, third = layers > 0 ? face.z : face.y;
-      builder.triangle(builder.near(face.x), builder.near(second), builder.near(third));
-      if (!chunk.withinHemisphere) {
-        builder.triangle(builder.far(face.x), builder.far(third), builder.far(second));
-      }
-    }
+                const VolumeChunk::Group& group, Builder& builder) {
+  for (std::uint32_t f = group.firstFace; f < group.firstFace + group.faceCount; ++f) {
+    const int layers = layersOfFace(silhouette, f, group.sheet);
+    if (layers == 0) continue;
+    const glm::uvec3& face = mesh.faces()[f];
+    const std::uint32_t second = layers > 0 ? face.y : face.z, third = layers > 0 ? face.z : face.y;
+    builder.triangle(builder.near(face.x), builder.near(second), builder.near(third));
+    if (!group.withinHemisphere)
+      builder.triangle(builder.far(face.x), builder.far(third), builder.far(second));
   }
-  if (!chunk.withinHemisphere || chunk.edges.empty()) return;
+  if (!group.withinHemisphere) return;
   // What the fan covers twice with opposite signs cancels in the count.
-  const std::uint32_t apex = chunk.edges.front().x;
-  for (const glm::uvec2& edge : chunk.edges) {
+  for (std::uint32_t e = group.firstEdge; e < group.firstEdge + group.edgeCount; ++e) {
+    const std::uint32_t apex = chunk.edges[group.firstEdge].x;
+    const glm::uvec2& edge = chunk.edges[e];
     if (edge.x == apex || edge.y == apex) continue;
     builder.triangle(builder.far(apex), builder.far(edge.y), builder.far(edge.x));
   }
@@ -261,7 +257,10 @@ VolumeMesh buildVolumeMesh(const HalfEdgeMesh& mesh, const Silhouette& silhouett
       builder.triangle(to, from, farFrom);
       builder.triangle(to, farFrom, farTo);
     }
-    if (surface == VolumeSurface::capped) appendCaps(mesh, silhouette, chunks[i], builder);
+    if (surface == VolumeSurface::sides) continue;
+    for (const VolumeChunk::Group& group : chunks[i].groups) {
+      appendCaps(mesh, silhouette, chunks[i], group, builder);
+    }
   }
   return builder.take();
 }

@@ -20,16 +20,18 @@ enum class VolumeSurface {
 
 /// Edges and faces of a caster whose shadow is at most `layers` thick along any ray from the light.
 struct VolumeChunk {
-  struct Faces {
-    std::uint32_t first = 0, count = 0;
+  /// Faces of one part and the edges around what they cover.
+  struct Group {
+    std::uint32_t firstFace = 0, faceCount = 0;
+    std::uint32_t firstEdge = 0, edgeCount = 0;  ///< in `edges`
     bool sheet = false;  ///< every face counts, turned to the light; else those that face it
+    /// All of it lies within less than a right angle of one direction, so that its far closure may be any fan
+    /// over its edges.
+    bool withinHemisphere = true;
   };
-  std::vector<Faces> faces;
+  std::vector<Group> groups;
   std::vector<glm::uvec2> edges;  ///< counter-clockwise seen from the light around what they cover
   int layers = 0;
-  /// Every face lies within less than a right angle of one direction, so that its far closure may be any fan
-  /// over its edges.
-  bool withinHemisphere = true;
 };
 
 /// Splits a caster into chunks of at most `maxLayers` layers each, most often one. The bound of layers is

@@ -42,7 +42,11 @@ void setRow(glm::dmat4& m, int index, const glm::dvec4& value) {
 }  // namespace
 
 VolumeView volumeView(const View& view) {
-  VolumeView result{.clipFromWorld = view.clipFromWorld, .width = view.width, .height = view.height};
+  VolumeView result{.clipFromWorld = view.clipFromWorld,
+                    .eyeWorld = view.eyeWorld,
+                    .nearReach = view.nearReach,
+                    .width = view.width,
+                    .height = view.height};
   // Of a perspective, z = a·w + b with b constant; at z = -w lies the near distance.
   const glm::dvec4 z = row(view.clipFromWorld, 2), w = row(view.clipFromWorld, 3);
   const double a = glm::dot(glm::dvec3(z), glm::dvec3(w)) / glm::dot(glm::dvec3(w), glm::dvec3(w));

@@ -18,6 +18,8 @@ struct VolumeView {
   /// it alike. x, y and w are the same.
   glm::dmat4 clipFromWorld{1.0};
   std::array<glm::dvec3, 4> nearCornersWorld{};  ///< of the near plane's rectangle, in order around it
+  glm::dvec3 eyeWorld{0.0};
+  double nearReach = 0.0;
   int width = 0, height = 0;
 };
 /// `view` is a perspective.
