@@ -30,9 +30,15 @@ struct HardError {
 /// Of one channel of a visibility image, which must hold 0 and 255 only.
 HardError compareHard(const HardTruth& truth, const Image& image, int channel = 0);
 
-/// Asserts that no certain pixel is wrong and that at most `outlineShare` of the receivers differ elsewhere;
-/// saves a picture beside the build when they do.
-void expectHard(const std::string& name, const HardTruth& truth, const Image& image, int channel = 0);
+/// Certain pixels that may be wrong for each surface of a volume that is seen edge-on: none but under ANGLE,
+/// whose SwiftShader takes a triangle's side from its corners before it rounds them to pixels' sixteenths, so
+/// that slivers are counted on the wrong side (measured: up to 3 pixels an image, 55 of 300 in one plane).
+int allowedSlivers(int surfacesInLine = 1);
+
+/// Asserts that at most allowedSlivers() certain pixels are wrong and that few of the receivers differ
+/// elsewhere; saves a picture beside the build when they do.
+void expectHard(const std::string& name, const HardTruth& truth, const Image& image, int channel = 0,
+                int surfacesInLine = 1);
 
 /// The scene moved and scaled about the origin, with everything in it.
 scene::SceneDescription transformedScene(const scene::SceneDescription& scene, double scale,

@@ -18,8 +18,9 @@ using gl::StencilOp;
 /// however two different triangles round. Nothing for slopes: of two sides seen edge-on it would move only
 /// one.
 const glm::vec2 kBehindCoplanar(0.0f, 4.0f);
-/// Steps of one stored level, safe from rounding and truncation alike in either direction.
-constexpr float kIncrement = 1.02f / 255.0f, kDecrement = 0.98f / 255.0f;
+/// A step of one stored level. Added and subtracted alike: drivers that keep more than 8 bits until a tile is
+/// stored must come back to where they were.
+constexpr float kStep = 1.0f / 255.0f;
 
 std::optional<gl::Rect> unite(const std::optional<gl::Rect>& a, const std::optional<gl::Rect>& b) {
   if (!a || !b) return std::nullopt;
@@ -141,10 +142,9 @@ void drawBlended(gl::Encoder& encoder, gl::Program& program, const VolumeDraw& d
   state.blend = {.enabled = true, .source = BlendFactor::one, .destination = BlendFactor::one};
   // What is added comes first: a channel cannot go below zero.
   const bool addsBack = draw.depthFail != draw.mirrored;
-  program.set(encoder.context(), "u_color", glm::vec4(kIncrement));
+  program.set(encoder.context(), "u_color", glm::vec4(kStep));
   state.cull = addsBack ? Cull::front : Cull::back;
   draw.volume->draw(encoder, state, draw.surface, draw.firstChunk, draw.lastChunk);
-  program.set(encoder.context(), "u_color", glm::vec4(kDecrement));
   state.blend.equation = BlendEquation::reverseSubtract;
   state.cull = addsBack ? Cull::back : Cull::front;
   draw.volume->draw(encoder, state, draw.surface, draw.firstChunk, draw.lastChunk);
@@ -176,7 +176,7 @@ void collapseCounts(gl::Encoder& encoder, const VolumePrograms& programs,
   encoder.useProgram(*programs.fullscreen);
   programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(1.0f));
   for (int i = 0; i < 8; ++i) encoder.drawFullscreen(state);
-  programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(1.0f - kIncrement));
+  programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(1.0f - kStep));
   state.blend = {.enabled = true,
                  .equation = BlendEquation::reverseSubtract,
                  .source = BlendFactor::one,
