@@ -33,6 +33,7 @@ const std::vector<Cost> kCosts = {
     {{"pcss"}, 1 + 4},
     {{"pcss-mip"}, 1 + 4 + 2},
     {{"pcf-quantized"}, 1 + 4 + 2},
+    {{"wedges-cells"}, 0},
 };
 
 class Counters : public SharedEngineTest, public testing::WithParamInterface<Cost> {

@@ -64,6 +64,7 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
                        const View& view, const DrawItem& item, bool facets, const ShadingInputs* inputs) {
   program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
   setMapUniforms(gl, program, shading, item.worldFromObject, facets);
+  if (shading.setItemUniforms) shading.setItemUniforms(program, gl, item);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front().light->centerWorld, 0.0);

@@ -116,6 +116,8 @@ struct ReceiverShading {
   std::vector<std::string> defines;  ///< of the variant
   std::vector<ReceiverTexture> textures;
   std::function<void(gl::Program&, gl::Context&)> setUniforms;
+  /// Uniforms that differ from receiver to receiver; may be empty.
+  std::function<void(gl::Program&, gl::Context&, const DrawItem&)> setItemUniforms;
   glm::dmat4 mapFromWorld{1.0};  ///< world -> (s·z, t·z, d·z, z); unused by screen-space techniques
   FilterSkip skip = FilterSkip::none;
   bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh

@@ -13,15 +13,15 @@
 #include "techniques/shadow_volume/shadow_volume.hpp"
 #include "techniques/shadow_width/shadow_width.hpp"
 #include "techniques/vsm/vsm.hpp"
-#include "techniques/wedges/wedges.hpp"
+#include "techniques/wedges_cells/wedges_cells.hpp"
 
 namespace halfshadow::techniques {
 
 std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
-  for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip,
-                          makeVsm, makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeWedges,
-                          makeWedgesProbabilistic, makeSampled}) {
+  for (const auto make :
+       {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip, makeVsm,
+        makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeWedgesCells, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;

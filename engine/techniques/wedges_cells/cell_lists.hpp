@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Lists of silhouette vertices per tile of a receiver, as the fragment shader of wedges-cells reads them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "techniques/wedges_cells/cell_loops.hpp"
+#include "techniques/wedges_cells/receiver_tiles.hpp"
+
+namespace halfshadow::techniques {
+
+/// One vertex in a list. Lists go sub-light by sub-light, caster by caster, loop by loop; a loop is its
+/// vertices and the first once more.
+struct CellRecord {
+  glm::vec3 ti{0.0f};
+  std::uint8_t subLight = 0;
+  bool startsLoop = false;  ///< no edge leads here
+  bool closesLoop = false;
+  enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
+};
+
+struct TileList {
+  std::uint32_t first = 0, count = 0;  ///< in CellLists::records
+  std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
+};
+
+struct CellLists {
+  std::vector<TileList> tiles;  ///< one for each box of the receiver's tiles
+  std::vector<CellRecord> records;
+  std::uint32_t longestList = 0;
+  std::size_t partialTiles = 0;  ///< tiles with a list
+};
+
+/// `subLights`: one for each quarter of the light.
+CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles);
+
+/// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
+TangentRect shadowedTangents(std::span<const SubLightLoops> subLights);
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/wedges_cells/cell_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace halfshadow::techniques {
+namespace {
+/// Shares of the receivers' range of reciprocal heights; beyond it a vertex is farther than every receiver.
+constexpr float kFarMargin = 1e-4f;
+
+/// Cuts a closed loop at i = iLow, dropping what is farther from the light.
+void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>& out) {
+  out.clear();
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const glm::vec3 &a = loop[k], &b = loop[k + 1 == loop.size() ? 0 : k + 1];
+    const bool aIn = a.z >= iLow, bIn = b.z >= iLow;
+    if (aIn) out.push_back(a);
+    if (aIn != bIn) out.push_back(glm::mix(a, b, (iLow - a.z) / (b.z - a.z)));
+  }
+}
+
+/// Drops the inner vertices of runs that lie beyond one side. Vertices with i < iNear stay: some receivers
+/// have them behind, cut the loop there, and need both ends of the cut.
+void collapseRuns(const std::vector<glm::vec3>& loop, const OuterSides& sides, float iNear,
+                  std::vector<glm::vec3>& out, bool& crosses) {
+  out.clear();
+  crosses = false;
+  const std::size_t count = loop.size();
+  const auto codeOf = [&](const glm::vec3& v) { return v.z < iNear ? 0u : sides.code(v); };
+  // Starting inside, where no run passes, no run is split.
+  std::size_t start = 0;
+  while (start < count && codeOf(loop[start]) != 0) ++start;
+  start = start == count ? 0 : start;
+  out.push_back(loop[start]);
+  unsigned lastCode = codeOf(loop[start]), run = lastCode, pendingCode = 0;
+  const glm::vec3* pending = nullptr;
+  for (std::size_t k = 1; k <= count; ++k) {
+    const glm::vec3& v = loop[(start + k) % count];
+    const unsigned code = codeOf(v);
+    if ((run & code) != 0) {
+      run &= code;
+      pending = &v;
+      pendingCode = code;
+      continue;
+    }
+    if (pending != nullptr) {
+      out.push_back(*pending);
+      lastCode = pendingCode;
+      pending = nullptr;
+    }
+    run = lastCode & code;
+    if (run != 0) {
+      pending = &v;
+      pendingCode = code;
+    } else {
+      crosses = true;
+      out.push_back(v);
+      lastCode = run = code;
+    }
+  }
+  if (pending != nullptr) out.push_back(*pending);
+  // The walk ended where it began: the first vertex is there twice.
+  out.pop_back();
+}
+
+/// Winding number of a loop that never crosses the sub-light, around the sub-light's centre.
+int windingNumber(const std::vector<glm::vec3>& loop, const SubLight& light, const glm::vec3& receiver) {
+  const glm::dvec2 origin(glm::vec2(receiver) + light.center * -receiver.z);
+  double angle = 0.0;
+  const auto at = [&](const glm::vec3& v) {
+    const glm::dvec2 q(glm::dvec2(v.x - light.center.x * double(v.z), v.y - light.center.y * double(v.z)) -
+                       origin);
+    return q;
+  };
+  for (std::size_t k = 0; k < loop.size(); ++k) {
+    const glm::dvec2 a = at(loop[k]), b = at(loop[k + 1 == loop.size() ? 0 : k + 1]);
+    angle += std::atan2(a.x * b.y - b.x * a.y, glm::dot(a, b));
+  }
+  return static_cast<int>(std::lround(angle / (2.0 * 3.14159265358979323846)));
+}
+}  // namespace
+
+void CasterLoops::clear() {
+  points.clear();
+  loops.clear();
+  low = glm::vec3(1e30f);
+  high = glm::vec3(-1e30f);
+  enclosesLight = false;
+}
+
+void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
+  loops.push_back({static_cast<std::uint32_t>(points.size()), static_cast<std::uint32_t>(loop.size())});
+  points.insert(points.end(), loop.begin(), loop.end());
+  for (const glm::vec3& p : loop) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+}
+
+SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light) {
+  SubLightLoops result{.light = light};
+  std::vector<glm::vec3> loop;
+  for (const scene::LightSilhouettes::Caster& source : silhouettes.casters) {
+    CasterLoops& caster = result.casters.emplace_back();
+    caster.enclosesLight = source.enclosesLight;
+    for (std::uint32_t l = source.firstLoop; l < source.firstLoop + source.loopCount; ++l) {
+      loop.clear();
+      for (std::uint32_t k = 0; k < silhouettes.loops[l].count; ++k) {
+        loop.emplace_back(tangentPoint(glm::dvec3(silhouettes.points[silhouettes.loops[l].first + k])));
+      }
+      caster.addLoop(loop);
+    }
+  }
+  return result;
+}
+
+OuterSides::OuterSides(const SubLight& light, const TangentBox& box)
+    : left_(light.center.x - light.half),
+      right_(light.center.x + light.half),
+      lower_(light.center.y - light.half),
+      upper_(light.center.y + light.half) {
+  // Largest and smallest t - X i over the box.
+  const auto largest = [&](float t, float side) { return t - side * (side > 0.0f ? box.iLow : box.iHigh); };
+  const auto smallest = [&](float t, float side) { return t - side * (side > 0.0f ? box.iHigh : box.iLow); };
+  rightBound_ = largest(box.tHigh.x, right_);
+  leftBound_ = smallest(box.tLow.x, left_);
+  upperBound_ = largest(box.tHigh.y, upper_);
+  lowerBound_ = smallest(box.tLow.y, lower_);
+}
+
+unsigned OuterSides::code(const glm::vec3& low, const glm::vec3& high) const {
+  const auto smallest = [&](float t, float side) { return t - side * (side > 0.0f ? high.z : low.z); };
+  const auto largest = [&](float t, float side) { return t - side * (side > 0.0f ? low.z : high.z); };
+  return (smallest(low.x, right_) > rightBound_ ? 1u : 0u) | (largest(high.x, left_) < leftBound_ ? 2u : 0u) |
+         (smallest(low.y, upper_) > upperBound_ ? 4u : 0u) |
+         (largest(high.y, lower_) < lowerBound_ ? 8u : 0u);
+}
+
+Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+                  CasterLoops& result) {
+  result.clear();
+  if (caster.enclosesLight) return Coverage::full;
+  const float iFar = receivers.iLow * (1.0f - kFarMargin);
+  if (caster.high.z <= iFar) return Coverage::none;
+  const OuterSides sides(light, receivers);
+  if (sides.code(caster.low, caster.high) != 0) return Coverage::none;
+  thread_local std::vector<glm::vec3> cut, collapsed;
+  int constant = 0;
+  bool partial = false;
+  for (const CasterLoops::Loop& loop : caster.loops) {
+    const std::span<const glm::vec3> points(caster.points.data() + loop.first, loop.count);
+    cutFar(points, iFar, cut);
+    if (cut.size() < 3) continue;
+    bool crosses = false;
+    collapseRuns(cut, sides, receivers.iHigh, collapsed, crosses);
+    if (crosses && collapsed.size() >= 3) {
+      result.addLoop(collapsed);
+      partial = true;
+    } else if (collapsed.size() >= 3) {
+      const int winding = windingNumber(cut, light, receivers.center());
+      constant += winding;
+      if (winding != 0) result.addLoop(collapsed);
+    }
+  }
+  if (partial) return Coverage::partial;
+  result.clear();
+  return constant > 0 ? Coverage::full : Coverage::none;
+}
+
+}  // namespace halfshadow::techniques

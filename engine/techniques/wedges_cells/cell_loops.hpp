@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouette loops as seen from a set of receivers: which of their vertices matter there.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "scene/light_silhouettes.hpp"
+#include "techniques/wedges_cells/tangent_space.hpp"
+
+namespace halfshadow::techniques {
+
+/// Loops of one caster part seen from one sub-light, in (t, i); counter-clockwise around what they cover.
+struct CasterLoops {
+  struct Loop {
+    std::uint32_t first = 0, count = 0;  ///< in `points`
+  };
+  std::vector<glm::vec3> points;
+  std::vector<Loop> loops;
+  glm::vec3 low{1e30f}, high{-1e30f};
+  bool enclosesLight = false;
+
+  void clear();
+  void addLoop(std::span<const glm::vec3> loop);
+};
+
+/// All casters of one sub-light.
+struct SubLightLoops {
+  SubLight light;
+  std::vector<CasterLoops> casters;
+};
+SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light);
+
+/// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
+/// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.
+class OuterSides {
+ public:
+  OuterSides(const SubLight& light, const TangentBox& receivers);
+  /// Bits 0-3: beyond the right, left, upper, lower side for all receivers.
+  unsigned code(const glm::vec3& ti) const {
+    return (ti.x - right_ * ti.z > rightBound_ ? 1u : 0u) | (ti.x - left_ * ti.z < leftBound_ ? 2u : 0u) |
+           (ti.y - upper_ * ti.z > upperBound_ ? 4u : 0u) | (ti.y - lower_ * ti.z < lowerBound_ ? 8u : 0u);
+  }
+  /// Sides beyond which an edge covers no part of any cell: cells count x from their left side, within their
+  /// rows.
+  static constexpr unsigned kCoversNothing = 2u | 4u | 8u;
+  /// The same for all points of a box at once; 0 when no side has all of it.
+  unsigned code(const glm::vec3& low, const glm::vec3& high) const;
+
+ private:
+  float left_, right_, lower_, upper_;
+  float leftBound_, rightBound_, lowerBound_, upperBound_;
+};
+
+enum class Coverage { none, full, partial };
+
+/// Writes into `result` loops that cover every cell of the sub-light exactly as `caster` does, for every
+/// receiver in the box: parts farther from the light than all receivers are cut off, runs of vertices beyond
+/// one side collapse to their chord, loops that cover nothing are dropped. `full`: the sub-light is wholly
+/// covered for all of them; `none`: not at all (result empty).
+Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+                  CasterLoops& result);
+
+}  // namespace halfshadow::techniques
