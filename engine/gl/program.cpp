@@ -8,9 +8,9 @@
 namespace halfshadow::gl {
 namespace {
 
-constexpr VertexAttribute kAttributes[] = {VertexAttribute::position, VertexAttribute::normal,
-                                           VertexAttribute::texcoord, VertexAttribute::extra0,
-                                           VertexAttribute::extra1,   VertexAttribute::extra2};
+constexpr VertexAttribute kAttributes[] = {
+    VertexAttribute::position, VertexAttribute::normal, VertexAttribute::texcoord, VertexAttribute::extra0,
+    VertexAttribute::extra1,   VertexAttribute::extra2, VertexAttribute::extra3,   VertexAttribute::extra4};
 
 /// Log of a shader or a program, by the pair of entry points that reads it.
 template <typename GetParameter, typename GetLog>
@@ -79,6 +79,10 @@ const char* attributeName(VertexAttribute attribute) {
       return "a_extra1";
     case VertexAttribute::extra2:
       return "a_extra2";
+    case VertexAttribute::extra3:
+      return "a_extra3";
+    case VertexAttribute::extra4:
+      return "a_extra4";
   }
   return "";
 }

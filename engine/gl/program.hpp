@@ -37,7 +37,9 @@ enum class VertexAttribute : std::uint32_t {
   texcoord = 2,
   extra0 = 3,
   extra1 = 4,
-  extra2 = 5
+  extra2 = 5,
+  extra3 = 6,
+  extra4 = 7
 };
 /// "a_position", "a_normal", "a_texcoord", "a_extra0" …
 const char* attributeName(VertexAttribute attribute);

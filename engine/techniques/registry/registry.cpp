@@ -13,15 +13,16 @@
 #include "techniques/shadow_volume/shadow_volume.hpp"
 #include "techniques/shadow_width/shadow_width.hpp"
 #include "techniques/vsm/vsm.hpp"
+#include "techniques/wedges/wedges.hpp"
 #include "techniques/wedges_cells/wedges_cells.hpp"
 
 namespace halfshadow::techniques {
 
 std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
-  for (const auto make :
-       {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip, makeVsm,
-        makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeWedgesCells, makeSampled}) {
+  for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip,
+                          makeVsm, makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeWedges,
+                          makeWedgesProbabilistic, makeWedgesCells, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;
@@ -43,15 +44,7 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
        0,
        0,
        {"branch", "loop", "stencil"},
-       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"},
-      {"occlusion_prefilter",
-       SettingType::choice,
-       "nbuffer",
-       0,
-       0,
-       {"nbuffer", "sat"},
-       "what occlusion-textures.filter=auto means: the cheaper of the two accurate prefilters; device "
-       "profiles set it"}};
+       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }

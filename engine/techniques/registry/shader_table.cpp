@@ -49,6 +49,9 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"fullscreen.vert", "width_finish.frag", {}},
       {"volume.vert", "volume.frag", {}},
       {"fullscreen.vert", "volume.frag", {}},
+      {"receiver_depth.vert", "receiver_depth.frag", {}},
+      {"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
+      {"fullscreen.vert", "wedge_merge.frag", {}},
       receiver("none.frag", {}),
       receiver("hard.frag", {kDepth, kMapReceiver, {"HS_COUNT_SHADOWED"}}),
       receiver("occlusion_textures.frag",
@@ -75,6 +78,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       receiver("wedges_cells.frag", {kMapReceiver, kTwoDraws, {"HS_CELLS", "HS_CASTING_RECEIVER"}}),
       receiver("screen_counts.frag", {}),
       receiver("screen_visibility.frag", {}),
+      receiver("screen_wedges.frag", {{"HS_WEDGE_SUMS"}}),
       receiver("shade_lights.frag", {}),
   };
 }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Where the receivers are, per pixel: one pass a frame, shared by all lights and read by every technique
+/// that works on the screen.
+#pragma once
+
+#include "techniques/core/technique.hpp"
+
+namespace halfshadow::techniques {
+
+struct ReceiverDepth {
+  /// RGB: distance along the view axis / `farthest`, 24 bits; A: 1 where there is a receiver.
+  framegraph::ResourceId packed;
+  /// Renderbuffer for depth tests against receivers: attach with InitialContent::keep.
+  framegraph::ResourceId depthTest;
+  /// What `depthTest` was drawn with: the view's, with the far plane at infinity so that volumes are never
+  /// cut.
+  glm::dmat4 clipFromWorld{1.0};
+  double farthest = 1.0;  ///< world length of the stored 1
+};
+
+/// Declares the pass, or finds the one that an earlier light declared. Errors: shaderFailed.
+Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame);
+
+/// A pixel's place in the coordinates (a, b, h) of a light is
+/// eye + distance · (rayOrigin + x · rayX + y · rayY), x and y its window coordinates, distance what is
+/// stored.
+struct ReceiverRays {
+  glm::dvec3 eye{0.0}, rayOrigin{0.0}, rayX{0.0}, rayY{0.0};
+};
+/// `lightFromWorld`: linear part and the light's centre, which is subtracted first, in double.
+ReceiverRays receiverRays(const View& view, const ReceiverDepth& depth, const glm::dmat3& lightFromWorld,
+                          const glm::dvec3& lightCenterWorld);
+/// Uniforms and texture of receiver_position.glsl; the program is current.
+void bindReceiverPosition(framegraph::PassContext& context, gl::Program& program, const ReceiverDepth& depth,
+                          const ReceiverRays& rays);
+
+}  // namespace halfshadow::techniques

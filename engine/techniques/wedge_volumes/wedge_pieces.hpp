@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouettes cut into short closed pieces, each with the volume that its penumbra fills. CPU only.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <vector>
+
+#include "scene/light_silhouettes.hpp"
+
+namespace halfshadow::techniques {
+
+/// Vertices of one piece: what a fragment evaluates at once.
+inline constexpr int kPieceVertices = 8;
+
+/// Where penumbra and umbra of some part of a caster can be: at height h the rectangle
+/// [1 + lowA·h, -1 + highA·h] × [1 + lowB·h, -1 + highB·h], for h from `nearest` on. Planes through the
+/// light's borders and the part: on it, (a - 1) / h is the same at caster and receiver.
+struct WedgeExtent {
+  double lowA = 1e30, highA = -1e30, lowB = 1e30, highB = -1e30;
+  double nearest = 1e30, farthest = 0.0;  ///< heights of its own
+  void include(const glm::dvec3& abh);
+  void include(const WedgeExtent& other);
+  glm::dvec2 low(double h) const { return {1.0 + lowA * h, 1.0 + lowB * h}; }
+  glm::dvec2 high(double h) const { return {highA * h - 1.0, highB * h - 1.0}; }
+  /// Whether a receiver at a height up to `end` can lie in both.
+  bool meets(const WedgeExtent& other, double end) const;
+};
+
+/// A closed polygon of at most kPieceVertices vertices. The pieces of a loop add up to the loop: chords
+/// between them are run through once each way.
+struct WedgePiece {
+  std::uint32_t firstVertex = 0, vertexCount = 0;
+  WedgeExtent extent;
+};
+
+struct WedgeCaster {
+  std::uint32_t object = 0;
+  std::uint32_t firstPiece = 0, pieceCount = 0;
+  std::uint32_t batch = 0;  ///< casters of one batch never shadow the same receiver
+  WedgeExtent extent;
+};
+
+struct WedgePieces {
+  std::vector<glm::vec3> vertices;  ///< (a, b, h)
+  std::vector<WedgePiece> pieces;
+  std::vector<WedgeCaster> casters;  ///< connected parts with a silhouette
+  std::uint32_t batchCount = 0;      ///< of casters with more than one piece
+};
+
+/// Replaces the content of `result`. `farthest`: largest height of a receiver.
+void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest, WedgePieces& result);
+
+}  // namespace halfshadow::techniques

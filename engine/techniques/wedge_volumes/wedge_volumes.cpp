@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/wedge_volumes/wedge_volumes.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "planner/frame_planner.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Volumes end a little behind the farthest receiver, so that it lies inside whatever rounding does.
+constexpr double kFarthest = 1.01;
+/// Nearest height of a caster, relative to the farthest receiver's: what reaches behind the light is cut
+/// here.
+constexpr double kMinHeight = 1e-3;
+/// Lights smaller than this share of the scene's depth have penumbrae below a pixel.
+constexpr double kMinHalfLength = 5e-4;
+
+/// Beyond 1 / (1/h - this) all vertices of a piece are nearer to the light than the receiver:
+/// HS_WEDGE_ALL_NEAR.
+constexpr double kAllNear = 1e-3, kAllNearWithoutHighp = 4e-3;
+
+/// Three rectangles a piece: at its nearest vertex, where all vertices are nearer than receivers, at the end.
+/// Between the first two lies the volume whose receivers need clipping, between the last two the rest.
+constexpr int kCorners = 12, kIndices = 36;
+constexpr std::size_t kPiecesPerDraw = 65536 / kCorners;
+/// Corner bits: 1 = high a, 2 = high b, 4 = the farther rectangle. Counter-clockwise from outside.
+constexpr std::array<std::uint16_t, kIndices> kBox = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
+                                                      2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+
+struct Vertex {
+  glm::vec3 corner;
+  /// Of the piece: a / h, b / h and 1 / h.
+  std::array<float, kPieceVertices> a, b, k;
+};
+constexpr int kStride = sizeof(Vertex);
+/// What rectangles are grown by, so that rounding leaves no receiver outside.
+constexpr double kMargin = 1e-4;
+
+double farthestReceiver(const LightFrame& frame) {
+  const glm::dvec3 normal = scene::emissionDirection(frame.light);
+  double farthest = 0.0;
+  for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
+    for (const DrawItem& item : items) {
+      for (const glm::dvec3& corner : item.boundsWorld.corners()) {
+        farthest = std::max(farthest, glm::dot(normal, corner - frame.light.centerWorld));
+      }
+    }
+  }
+  return farthest;
+}
+
+std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear) {
+  std::vector<Vertex> stream;
+  stream.reserve(pieces.pieces.size() * kCorners);
+  for (const WedgePiece& piece : pieces.pieces) {
+    Vertex vertex;
+    for (std::size_t i = 0; i < kPieceVertices; ++i) {
+      // Short pieces repeat their last vertex: edges of no length add nothing.
+      const std::size_t index = std::min<std::size_t>(i, piece.vertexCount - 1);
+      const glm::dvec3 abh(pieces.vertices[piece.firstVertex + index]);
+      vertex.a[i] = static_cast<float>(abh.x / abh.z);
+      vertex.b[i] = static_cast<float>(abh.y / abh.z);
+      vertex.k[i] = static_cast<float>(1.0 / abh.z);
+    }
+    const double nearest = piece.extent.nearest;
+    const double last = 1.0 / std::max(1.0 / piece.extent.farthest - allNear, 1.0 / kFarthest);
+    for (const double h : {nearest, last, kFarthest}) {
+      const glm::dvec2 low = piece.extent.low(h), high = piece.extent.high(h);
+      const glm::dvec2 grown = kMargin * (high - low + 1.0);
+      for (int corner = 0; corner < 4; ++corner) {
+        vertex.corner = glm::dvec3(corner & 1 ? high.x + grown.x : low.x - grown.x,
+                                   corner & 2 ? high.y + grown.y : low.y - grown.y, h);
+        stream.push_back(vertex);
+      }
+    }
+  }
+  return stream;
+}
+
+Status upload(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
+              std::span<const std::byte> bytes) {
+  if (buffer) return buffer.update(context, bytes);
+  auto made = gl::Buffer::create(context, target, bytes, gl::BufferUsage::dynamicDraw);
+  if (!made) return made.error();
+  buffer = std::move(*made);
+  return {};
+}
+
+/// The index pattern, repeated; grows only.
+Status uploadIndices(gl::Context& context, gl::Buffer& buffer, std::size_t pieces) {
+  pieces = std::min(pieces, kPiecesPerDraw);
+  if (buffer && buffer.byteCount() >= pieces * kIndices * 2) return {};
+  std::vector<std::uint16_t> indices;
+  for (std::size_t piece = 0; piece < pieces; ++piece) {
+    for (const std::uint16_t index : kBox)
+      indices.push_back(static_cast<std::uint16_t>(piece * kCorners + index));
+  }
+  return upload(context, buffer, gl::BufferTarget::index, std::as_bytes(std::span(indices)));
+}
+
+std::uint64_t keyOf(const LightFrame& frame, double farthest) {
+  return planner::combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest));
+}
+
+/// Points whose hull contains everything between the eye and the near plane's rectangle.
+std::array<glm::dvec3, 5> eyeHull(const View& view, const scene::LightPlane& plane) {
+  const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
+  std::array<glm::dvec3, 5> hull;
+  hull[4] = plane.fromWorld(view.eyeWorld);
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec4 point = worldFromClip * glm::dvec4(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, -1, 1);
+    hull[static_cast<std::size_t>(corner)] = plane.fromWorld(glm::dvec3(point) / point.w);
+  }
+  return hull;
+}
+
+/// True when one side of the volume keeps all of the hull outside, with some to spare.
+bool eyeOutside(const WedgeExtent& extent, const std::array<glm::dvec3, 5>& hull) {
+  bool outside[6] = {true, true, true, true, true, true};
+  for (const glm::dvec3& eye : hull) {
+    const glm::dvec2 low = extent.low(eye.z) - 0.01, high = extent.high(eye.z) + 0.01;
+    outside[0] &= eye.x < low.x;
+    outside[1] &= eye.x > high.x;
+    outside[2] &= eye.y < low.y;
+    outside[3] &= eye.y > high.y;
+    outside[4] &= eye.z < 0.99 * extent.nearest;
+    outside[5] &= eye.z > kFarthest * 1.01;
+  }
+  return std::ranges::any_of(outside, [](bool side) { return side; });
+}
+
+void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::DrawState& state, WedgePart part,
+                std::size_t first, std::size_t count) {
+  using gl::VertexAttribute;
+  constexpr VertexAttribute kVectors[] = {VertexAttribute::extra0, VertexAttribute::extra1,
+                                          VertexAttribute::extra2, VertexAttribute::extra3,
+                                          VertexAttribute::extra4, VertexAttribute::normal};
+  while (count > 0) {
+    const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 4 : 0;
+    const std::size_t offset = (first * kCorners + skipped) * kStride;
+    gl::AttributeBinding bindings[7];
+    bindings[0] = {VertexAttribute::position,  &volumes.vertices, 3,
+                   gl::AttributeType::float32, kStride,           offset};
+    for (std::size_t i = 0; i < 6; ++i) {
+      bindings[i + 1] = {kVectors[i], &volumes.vertices,   4, gl::AttributeType::float32,
+                         kStride,     offset + 12 + 16 * i};
+    }
+    encoder.draw(state, {.attributes = bindings,
+                         .indices = &volumes.indices,
+                         .indexType = gl::IndexType::uint16,
+                         .count = now * kIndices});
+    first += now, count -= now;
+  }
+}
+}  // namespace
+
+Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
+  WedgeVolumes& volumes = volumes_[frame.lightIndex];
+  const double farthest = std::max(farthestReceiver(frame), 1e-9);
+  const std::uint64_t key = keyOf(frame, farthest);
+  if (volumes.contentKey == key) return &volumes;
+  volumes.contentKey = 0;
+  volumes.plane = scene::LightPlane(frame.light, farthest, kMinHalfLength * farthest);
+  std::vector<scene::PlacedCaster> casters;
+  for (std::uint32_t i = 0; i < frame.casters.size(); ++i) {
+    casters.push_back({.mesh = &frame.casters[i].halfEdges(),
+                       .worldFromObject = frame.casters[i].worldFromObject,
+                       .object = i});
+  }
+  scene::LightSilhouettes silhouettes;
+  scene::lightSilhouettes(casters, volumes.plane, 0.0, 0.0, kMinHeight, silhouettes);
+  makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
+  if (!volumes.pieces.pieces.empty()) {
+    const bool highp = frame.capabilities.has(gl::Capability::highp);
+    const std::vector<Vertex> stream = vertexStream(volumes.pieces, highp ? kAllNear : kAllNearWithoutHighp);
+    if (Status s = upload(frame.context, volumes.vertices, gl::BufferTarget::vertex,
+                          std::as_bytes(std::span(stream)));
+        !s) {
+      return s.error();
+    }
+    if (Status s = uploadIndices(frame.context, volumes.indices, volumes.pieces.pieces.size()); !s)
+      return s.error();
+  }
+  volumes.contentKey = key;
+  return &volumes;
+}
+
+void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
+                      const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
+                      WedgePart part, gl::DrawState state) {
+  gl::Encoder& encoder = context.encoder;
+  const scene::LightPlane& plane = volumes.plane;
+  bindReceiverPosition(context, program, depth, receiverRays(view, depth, plane.axes, plane.centerWorld));
+  const glm::dvec3 alongNormal = plane.heightUnit * plane.normal;
+  const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
+                                  glm::dvec4(alongNormal, 0), glm::dvec4(plane.centerWorld, 1));
+  program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
+  const auto hull = eyeHull(view, plane);
+  if (part == WedgePart::beside) {
+    // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject
+    // it.
+    state.cull = gl::Cull::front;
+    state.depth = {.test = gl::Compare::gequal};
+  }
+  const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
+    // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
+    // those that face away stand behind it.
+    if (part == WedgePart::beyond) {
+      state.cull = outside ? gl::Cull::back : gl::Cull::front;
+      state.depth = {.test = outside ? gl::Compare::lequal : gl::Compare::gequal};
+    }
+    if (end > first) drawPieces(encoder, volumes, state, part, first, end - first);
+  };
+  std::size_t first = 0, end = 0;
+  bool outside = true;
+  for (const CasterRange& range : casters) {
+    for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
+      const WedgeCaster& caster = volumes.pieces.casters[i];
+      const bool casterOutside = eyeOutside(caster.extent, hull);
+      if (casterOutside != outside || caster.firstPiece != end) {
+        flush(outside, first, end);
+        first = caster.firstPiece, outside = casterOutside;
+      }
+      end = caster.firstPiece + caster.pieceCount;
+    }
+  }
+  flush(outside, first, end);
+}
+
+}  // namespace halfshadow::techniques

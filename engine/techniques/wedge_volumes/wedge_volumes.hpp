@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Penumbra wedges of a light on the GPU: made once per content, drawn by every wedge technique.
+#pragma once
+
+#include <map>
+
+#include "techniques/receiver_depth/receiver_depth.hpp"
+#include "techniques/wedge_volumes/wedge_pieces.hpp"
+
+namespace halfshadow::techniques {
+
+/// The wedges of one light. Heights are in units of the farthest receiver's distance from the light's plane.
+struct WedgeVolumes {
+  std::uint64_t contentKey = 0;
+  scene::LightPlane plane;
+  WedgePieces pieces;
+  gl::Buffer vertices, indices;
+};
+
+/// A contiguous range of casters.
+struct CasterRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Receivers of a piece, told apart by their height; each has its own program.
+enum class WedgePart {
+  beside,  ///< not all of the piece is nearer to the light: HS_WEDGE_CLIP
+  beyond   ///< all of it is
+};
+
+/// Keeps the wedges of each light between frames.
+class WedgeVolumeCache {
+ public:
+  /// The wedges for this frame, uploaded again only when light, casters or the receivers' reach changed. The
+  /// pointer stays valid until contextLost(). Errors: outOfMemory.
+  Result<const WedgeVolumes*> update(const LightFrame& frame);
+  void contextLost() { volumes_.clear(); }
+
+ private:
+  std::map<int, WedgeVolumes> volumes_;
+};
+
+/// Draws the volumes of casters, in a pass whose depth attachment is ReceiverDepth::depthTest. The program is
+/// current and made of wedge_volume.vert with a fragment shader that includes wedge_piece.glsl. Pixels of
+/// receivers outside the volume may be touched: what a piece contributes there is 0 by its arithmetic.
+/// `state.depth` and `state.cull` are set here.
+void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
+                      const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
+                      WedgePart part, gl::DrawState state);
+
+}  // namespace halfshadow::techniques

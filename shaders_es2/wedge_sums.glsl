@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Sums of covered shares in one RGBA8 target that never clamp part-way: positive and negative steps apart, each
+// as multiples of 16 (R, G) and a signed rest of at most 8 (B, A). All are whole bytes, so that blending adds
+// them without rounding.
+HS_HIGHP vec4 hs_encodeCoverage(HS_HIGHP float coverage, HS_HIGHP float steps) {
+  HS_HIGHP float whole = floor(coverage * steps + 0.5);
+  HS_HIGHP float high = floor(whole * (1.0 / 16.0) + 0.5);
+  HS_HIGHP float low = whole - 16.0 * high;
+  return (max(vec4(high, -high, low, -low), 0.0) + 0.125) * (1.0 / 255.0);
+}
+HS_HIGHP float hs_decodeCoverage(HS_HIGHP vec4 sums, HS_HIGHP float steps) {
+  HS_HIGHP vec4 bytes = floor(sums * 255.0 + 0.5);
+  return (16.0 * (bytes.x - bytes.y) + bytes.z - bytes.w) / steps;
+}

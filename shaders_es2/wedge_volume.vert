@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// A corner of a wedge's volume, with the eight vertices of its piece of silhouette: a / h, b / h and 1 / h.
+attribute highp vec3 a_position;
+attribute highp vec4 a_extra0;
+attribute highp vec4 a_extra1;
+attribute highp vec4 a_extra2;
+attribute highp vec4 a_extra3;
+attribute highp vec4 a_extra4;
+attribute highp vec4 a_normal;
+uniform highp mat4 u_clipFromLight;
+varying highp vec4 v_pieceA0;
+varying highp vec4 v_pieceA1;
+varying highp vec4 v_pieceB0;
+varying highp vec4 v_pieceB1;
+varying highp vec4 v_pieceK0;
+varying highp vec4 v_pieceK1;
+
+void main() {
+  gl_Position = u_clipFromLight * vec4(a_position, 1.0);
+  v_pieceA0 = a_extra0;
+  v_pieceA1 = a_extra1;
+  v_pieceB0 = a_extra2;
+  v_pieceB1 = a_extra3;
+  v_pieceK0 = a_extra4;
+  v_pieceK1 = a_normal;
+}
