@@ -35,12 +35,12 @@ std::unique_ptr<Casters> castersOf(const char* name) {
   return casters;
 }
 
-void extractAll(benchmark::State& state, const char* name) {
+void extractAll(benchmark::State& state, const char* name, scene::LayerSplit split) {
   const auto casters = castersOf(name);
   scene::LightSilhouettes result;
   double source = -0.5;
   for (auto unused : state) {
-    scene::lightSilhouettes(casters->placed, casters->plane, source, 0.5, 1e-3, result);
+    scene::lightSilhouettes(casters->placed, casters->plane, source, 0.5, 1e-3, result, split);
     benchmark::DoNotOptimize(result.points.data());
     source = -source;
   }
@@ -72,12 +72,17 @@ void build(benchmark::State& state, const char* name) {
 
 BENCHMARK_CAPTURE(build, mannequin, "mannequin")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(build, terrain, "terrain")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, mannequin, "mannequin")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, terrain, "terrain")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, spheres_cube, "spheres-cube")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, mannequin, "mannequin", scene::LayerSplit::none)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, mannequin_layers, "mannequin", scene::LayerSplit::layers)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, spheres_cube_layers, "spheres-cube", scene::LayerSplit::layers)
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, terrain, "terrain", scene::LayerSplit::none)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, spheres_cube, "spheres-cube", scene::LayerSplit::none)
+    ->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(moveOne, spheres_cube, "spheres-cube")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, spheres27, "spheres27")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, figure, "figure")->Unit(benchmark::kMillisecond);
-BENCHMARK_CAPTURE(extractAll, leaves, "leaves")->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, spheres27, "spheres27", scene::LayerSplit::none)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, figure, "figure", scene::LayerSplit::none)->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(extractAll, leaves, "leaves", scene::LayerSplit::none)->Unit(benchmark::kMillisecond);
 }  // namespace
 }  // namespace halfshadow

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "scene/cut_silhouette.hpp"
+#include "scene/silhouette_layers.hpp"
 
 namespace halfshadow::scene {
 namespace {
@@ -107,23 +108,24 @@ void LightSilhouettes::append(const LightSilhouettes& other) {
 }
 
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
-                      double sourceB, double minHeight, LightSilhouettes& result) {
+                      double sourceB, double minHeight, LightSilhouettes& result, LayerSplit split) {
   result.clear();
   const glm::dvec3 sourceWorld = plane.toWorld({sourceA, sourceB, 0.0});
   for (const PlacedCaster& caster : casters) appendCaster(caster, plane, sourceWorld, minHeight, result);
+  splitLayers(result, sourceA, sourceB, split);
 }
 
 bool LightSilhouetteCache::View::operator==(const View& other) const {
   return centerWorld == other.centerWorld && axes == other.axes && sourceA == other.sourceA &&
-         sourceB == other.sourceB && minHeight == other.minHeight;
+         sourceB == other.sourceB && minHeight == other.minHeight && split == other.split;
 }
 
 const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaster> casters,
                                                      const LightPlane& plane, double sourceA, double sourceB,
-                                                     double minHeight) {
+                                                     double minHeight, LayerSplit split) {
   counters_ = {};
   changedObjects_.clear();
-  const View view{plane.centerWorld, plane.axes, sourceA, sourceB, minHeight};
+  const View view{plane.centerWorld, plane.axes, sourceA, sourceB, minHeight, split};
   bool changed = casters.size() != order_.size() || generation_ == 0;
   if (!(view == view_)) {
     view_ = view;
@@ -144,6 +146,7 @@ const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaste
     } else {
       entry.silhouettes.clear();
       appendCaster(caster, plane, sourceWorld, minHeight, entry.silhouettes);
+      splitLayers(entry.silhouettes, sourceA, sourceB, split);
       entry.revision = caster.revision;
       entry.mesh = caster.mesh;
       ++counters_.extracted;

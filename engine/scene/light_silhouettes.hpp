@@ -44,7 +44,7 @@ struct LightSilhouettes {
   struct Loop {
     std::uint32_t first = 0, count = 0;  ///< in `points`, closed
   };
-  /// One connected part of one caster, or one side of an open one.
+  /// One connected part of one caster, one side of an open one, or one layer of these (see LayerSplit).
   struct Caster {
     std::uint32_t object = 0, part = 0;
     std::uint32_t firstLoop = 0, loopCount = 0;
@@ -64,20 +64,31 @@ struct LightSilhouettes {
   void append(const LightSilhouettes& other);  ///< all but the counters
 };
 
+/// How often one entry may cover the same ground, seen from the source point. A caster that hides parts of
+/// itself, like a person's arm before the body, has loops that lie within each other or cross.
+enum class LayerSplit {
+  none,     ///< one entry a part; its loops count each layer
+  layers,   ///< one entry a layer: what is covered at all, at least twice, …; they add up to the same
+  outline,  ///< the first layer only: what is covered at all
+};
+
 /// Silhouettes seen from the point (sourceA, sourceB) of the light, cut at h = minHeight (> 0, small): what
 /// reaches through the light's plane is closed along the cut through its faces. Replaces the content of
 /// `result`.
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
-                      double sourceB, double minHeight, LightSilhouettes& result);
+                      double sourceB, double minHeight, LightSilhouettes& result,
+                      LayerSplit split = LayerSplit::none);
 
 /// Silhouettes seen from one point of one light, extracted again only for casters that changed.
 class LightSilhouetteCache {
  public:
   /// Same result as lightSilhouettes(). A caster is known by its `object` (and its place among casters that
-  /// share one). A light that moved, or another source point, extracts everything anew. The reference lasts
+  /// share one). A light that moved, another source point or split extracts everything
+  /// anew. The reference lasts
   /// until the next call.
   const LightSilhouettes& update(std::span<const PlacedCaster> casters, const LightPlane& plane,
-                                 double sourceA, double sourceB, double minHeight);
+                                 double sourceA, double sourceB, double minHeight,
+                                 LayerSplit split = LayerSplit::none);
 
   struct Counters {
     std::uint32_t extracted = 0, reused = 0;  ///< casters
@@ -93,6 +104,7 @@ class LightSilhouetteCache {
     glm::dvec3 centerWorld{0.0};
     glm::dmat3 axes{0.0};
     double sourceA = 0.0, sourceB = 0.0, minHeight = 0.0;
+    LayerSplit split = LayerSplit::none;
     bool operator==(const View& other) const;
   };
   struct Entry {
