@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// A corner of a wedge's volume, with the eight vertices of its piece of silhouette: a / h, b / h and 1 / h.
+// A corner of a wedge's volume, with the eight vertices of its piece of silhouette: a, b and h in steps of a grid,
+// relative to a centre in units of 64 steps. All are whole numbers, so that the fragment shader can round away what
+// interpolation adds to constants.
 attribute highp vec3 a_position;
 attribute highp vec4 a_extra0;
 attribute highp vec4 a_extra1;
@@ -8,13 +10,15 @@ attribute highp vec4 a_extra2;
 attribute highp vec4 a_extra3;
 attribute highp vec4 a_extra4;
 attribute highp vec4 a_normal;
+attribute highp vec3 a_texcoord;
 uniform highp mat4 u_clipFromLight;
 varying highp vec4 v_pieceA0;
 varying highp vec4 v_pieceA1;
 varying highp vec4 v_pieceB0;
 varying highp vec4 v_pieceB1;
-varying highp vec4 v_pieceK0;
-varying highp vec4 v_pieceK1;
+varying highp vec4 v_pieceH0;
+varying highp vec4 v_pieceH1;
+varying highp vec3 v_pieceCenter;
 
 void main() {
   gl_Position = u_clipFromLight * vec4(a_position, 1.0);
@@ -22,6 +26,7 @@ void main() {
   v_pieceA1 = a_extra1;
   v_pieceB0 = a_extra2;
   v_pieceB1 = a_extra3;
-  v_pieceK0 = a_extra4;
-  v_pieceK1 = a_normal;
+  v_pieceH0 = a_extra4;
+  v_pieceH1 = a_normal;
+  v_pieceCenter = a_texcoord;
 }

@@ -3,18 +3,21 @@
 #include "techniques/wedge_volumes/wedge_pieces.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace halfshadow::techniques {
 namespace {
 
 void addPiece(const std::vector<glm::vec3>& polygon, std::size_t first, std::size_t count,
               WedgePieces& result) {
+  const glm::dvec3 grid(result.stepAB, result.stepAB, result.stepH);
   WedgePiece piece{.firstVertex = static_cast<std::uint32_t>(result.vertices.size()),
                    .vertexCount = static_cast<std::uint32_t>(count)};
   for (std::size_t i = 0; i < count; ++i) {
-    const glm::vec3& vertex = polygon[(first + i) % polygon.size()];
-    result.vertices.push_back(vertex);
-    piece.extent.include(glm::dvec3(vertex));
+    glm::dvec3 vertex = glm::round(glm::dvec3(polygon[(first + i) % polygon.size()]) / grid) * grid;
+    vertex.z = std::max(vertex.z, result.stepH);
+    result.vertices.emplace_back(vertex);
+    piece.extent.include(vertex);
   }
   result.pieces.push_back(piece);
 }
@@ -84,6 +87,11 @@ void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest
   result.vertices.clear();
   result.pieces.clear();
   result.casters.clear();
+  double outermost = 1.0;
+  for (const glm::vec3& point : silhouettes.points)
+    outermost = std::max<double>({outermost, std::abs(point.x), std::abs(point.y)});
+  result.stepAB = std::exp2(std::ceil(std::log2(outermost / kGridSteps)));
+  result.stepH = 1.0 / kGridSteps;
   for (const scene::LightSilhouettes::Caster& caster : silhouettes.casters) {
     WedgeCaster made{.object = caster.object, .firstPiece = static_cast<std::uint32_t>(result.pieces.size())};
     for (std::uint32_t l = caster.firstLoop; l < caster.firstLoop + caster.loopCount; ++l) {

@@ -12,6 +12,10 @@
 
 namespace halfshadow::techniques {
 
+/// Steps of the grid from the light's axis to the outermost vertex, and from the light to the farthest
+/// receiver.
+inline constexpr double kGridSteps = 131072.0;
+
 /// Vertices of one piece: what a fragment evaluates at once.
 inline constexpr int kPieceVertices = 8;
 
@@ -44,7 +48,10 @@ struct WedgeCaster {
 };
 
 struct WedgePieces {
-  std::vector<glm::vec3> vertices;  ///< (a, b, h)
+  std::vector<glm::vec3> vertices;  ///< (a, b, h), whole multiples of the grid's steps
+  /// Powers of two: a step of a and b, a step of h. Neighbouring pieces and casters share it, so that
+  /// vertices which coincide do so exactly whatever reads them.
+  double stepAB = 1.0, stepH = 1.0;
   std::vector<WedgePiece> pieces;
   std::vector<WedgeCaster> casters;  ///< connected parts with a silhouette
   std::uint32_t batchCount = 0;      ///< of casters with more than one piece

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 
 #include "planner/frame_planner.hpp"
 
@@ -30,10 +31,14 @@ constexpr std::size_t kPiecesPerDraw = 65536 / kCorners;
 constexpr std::array<std::uint16_t, kIndices> kBox = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
                                                       2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
 
+/// A whole number of steps that a piece's centre is rounded to: wedge_piece.glsl.
+constexpr double kCenterSteps = 64.0;
+
 struct Vertex {
   glm::vec3 corner;
-  /// Of the piece: a / h, b / h and 1 / h.
-  std::array<float, kPieceVertices> a, b, k;
+  /// Of the piece, in steps of the grid from the centre.
+  std::array<float, kPieceVertices> a, b, h;
+  glm::vec3 center;  ///< in units of kCenterSteps
 };
 constexpr int kStride = sizeof(Vertex);
 /// What rectangles are grown by, so that rounding leaves no receiver outside.
@@ -55,18 +60,22 @@ double farthestReceiver(const LightFrame& frame) {
 std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear) {
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
+  const glm::dvec3 grid(pieces.stepAB, pieces.stepAB, pieces.stepH);
   for (const WedgePiece& piece : pieces.pieces) {
     Vertex vertex;
-    for (std::size_t i = 0; i < kPieceVertices; ++i) {
+    const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
-      const std::size_t index = std::min<std::size_t>(i, piece.vertexCount - 1);
-      const glm::dvec3 abh(pieces.vertices[piece.firstVertex + index]);
-      vertex.a[i] = static_cast<float>(abh.x / abh.z);
-      vertex.b[i] = static_cast<float>(abh.y / abh.z);
-      vertex.k[i] = static_cast<float>(1.0 / abh.z);
+      const std::size_t index = piece.firstVertex + std::min<std::size_t>(i, piece.vertexCount - 1);
+      return glm::dvec3(pieces.vertices[index]) / grid;
+    };
+    const glm::dvec3 center = glm::round(0.5 * (steps(0) + steps(piece.vertexCount / 2)) / kCenterSteps);
+    vertex.center = center;
+    for (std::size_t i = 0; i < kPieceVertices; ++i) {
+      const glm::vec3 relative(steps(i) - kCenterSteps * center);
+      vertex.a[i] = relative.x, vertex.b[i] = relative.y, vertex.h[i] = relative.z;
     }
     const double nearest = piece.extent.nearest;
-    const double last = 1.0 / std::max(1.0 / piece.extent.farthest - allNear, 1.0 / kFarthest);
+    const double last = std::min(piece.extent.farthest + allNear, kFarthest);
     for (const double h : {nearest, last, kFarthest}) {
       const glm::dvec2 low = piece.extent.low(h), high = piece.extent.high(h);
       const glm::dvec2 grown = kMargin * (high - low + 1.0);
@@ -141,13 +150,15 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
   while (count > 0) {
     const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 4 : 0;
     const std::size_t offset = (first * kCorners + skipped) * kStride;
-    gl::AttributeBinding bindings[7];
+    gl::AttributeBinding bindings[8];
     bindings[0] = {VertexAttribute::position,  &volumes.vertices, 3,
                    gl::AttributeType::float32, kStride,           offset};
     for (std::size_t i = 0; i < 6; ++i) {
       bindings[i + 1] = {kVectors[i], &volumes.vertices,   4, gl::AttributeType::float32,
                          kStride,     offset + 12 + 16 * i};
     }
+    bindings[7] = {VertexAttribute::texcoord,  &volumes.vertices, 3,
+                   gl::AttributeType::float32, kStride,           offset + offsetof(Vertex, center)};
     encoder.draw(state, {.attributes = bindings,
                          .indices = &volumes.indices,
                          .indexType = gl::IndexType::uint16,
@@ -198,6 +209,8 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
                                   glm::dvec4(alongNormal, 0), glm::dvec4(plane.centerWorld, 1));
   program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
+  const double ab = volumes.pieces.stepAB, h = volumes.pieces.stepH;
+  program.set(encoder.context(), "u_pieceGrid", glm::vec4(ab, h, 1.0 / ab, 1.0 / h));
   const auto hull = eyeHull(view, plane);
   if (part == WedgePart::beside) {
     // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject
