@@ -39,12 +39,12 @@ Status checkPicture(const profile::SuiteConfiguration& configuration, const std:
 }
 
 Result<ProfiledScene> profileScene(measure::EngineSession& session, const profile::Suite& suite,
-                                   const std::string& source) {
-  const auto scene = openScene({.source = source});
+                                   const profile::SuiteScene& profiled) {
+  const auto scene = openScene({.source = profiled.source, .camera = profiled.camera});
   if (!scene) return scene.error();
   ProgressLine line;
   const measure::Progress progress = [&](const std::string& stage, double share) {
-    line.update(source + ": " + stage, share);
+    line.update(profiled.label + ": " + stage, share);
   };
   auto truth = measure::traceTruth(*scene, suite.width, suite.height, suite.samples, progress);
   if (!truth) return truth.error();
@@ -72,31 +72,67 @@ Result<ProfiledScene> profileScene(measure::EngineSession& session, const profil
     measured[i].time = (*times)[i].frame;
   }
   ProfiledScene result{
-      .profile = {source, measure::toJson(*scene, session.engine().driver(), *truth, measured),
+      .profile = {profiled.label, measure::toJson(*scene, session.engine().driver(), *truth, measured),
                   std::move(*times)},
-      .page = {.title = source, .description = report::describeScene(*scene), .truth = std::move(*truth)}};
+      .page = {
+          .title = profiled.label, .description = report::describeScene(*scene), .truth = std::move(*truth)}};
   result.page.techniques = std::move(measured);
   return result;
 }
 
+const std::vector<std::string> kRatioColumns = {"frame", "receiver passes", "unchanged frame", "CPU, frame",
+                                                "CPU, unchanged"};
+
+std::vector<std::string> ratioRow(const std::string& name, const profile::TimeRatios& times) {
+  const auto text = [](double ratio) { return ratio > 0 ? fixedText(ratio, 2) : std::string("–"); };
+  return {name,
+          text(times.frame),
+          text(times.receiver),
+          text(times.unchanged),
+          text(times.frameCpu),
+          text(times.unchangedCpu)};
+}
+
 report::Table ratioTable(const profile::Suite& suite, const profile::SceneProfile& scene) {
   report::Table table{
-      .title = "Ratios, " + scene.source,
+      .title = "Ratios, " + scene.label,
       .note =
-          "Time of the first divided by time of the second: the whole frame, and only the passes "
-          "over receivers, without shadow maps and masks.",
-      .header = {"times", "frame", "receiver passes"}};
+          "Time of the first divided by time of the second: whole frames with a moving light; only their "
+          "passes over receivers, without shadow maps and masks; frames in which nothing changed; and the "
+          "process's CPU time of both kinds of frame.",
+      .header = {"times"}};
+  table.header.insert(table.header.end(), kRatioColumns.begin(), kRatioColumns.end());
   for (const profile::RatioResult& ratio : profile::ratiosOf(suite, scene.times)) {
-    table.rows.push_back(
-        {ratio.of + " / " + ratio.to, fixedText(ratio.frame, 2), fixedText(ratio.receiver, 2)});
+    table.rows.push_back(ratioRow(ratio.of + " / " + ratio.to, ratio.times));
   }
   return table;
 }
 
+report::Table sceneRatioTable(const profile::Suite& suite, const std::vector<profile::SceneProfile>& scenes) {
+  report::Table table{.title = "Ratios between scenes",
+                      .note =
+                          "Time in the first scene divided by time in the second, of what a configuration "
+                          "takes above another.",
+                      .header = {"times"}};
+  table.header.insert(table.header.end(), kRatioColumns.begin(), kRatioColumns.end());
+  for (const profile::SceneRatioResult& result : profile::sceneRatiosOf(suite, scenes)) {
+    const profile::SceneRatio& ratio = result.ratio;
+    table.rows.push_back(ratioRow(ratio.configuration + (ratio.above.empty() ? "" : " above " + ratio.above) +
+                                      ": " + ratio.of + " / " + ratio.to,
+                                  result.times));
+  }
+  return table;
+}
+
+void printRatios(const report::Table& table) {
+  if (!table.rows.empty()) print(TextTable{.header = table.header, .rows = table.rows});
+  std::fflush(stdout);
+}
+
 void printScene(const profile::Suite& suite, const ProfiledScene& scene) {
-  std::printf("%s, %dx%d\n", scene.profile.source.c_str(), suite.width, suite.height);
-  TextTable table{
-      .header = {"configuration", "penumbra rmse", "taps/px", "ms frame", "light passes", "receiver passes"}};
+  std::printf("%s, %dx%d\n", scene.profile.label.c_str(), suite.width, suite.height);
+  TextTable table{.header = {"configuration", "penumbra rmse", "taps/px", "ms frame", "light passes",
+                             "receiver passes", "unchanged", "CPU frame", "CPU unchanged"}};
   for (std::size_t i = 0; i < suite.configurations.size(); ++i) {
     const profile::FrameTimes& times = scene.profile.times[i];
     if (!times.supported) continue;
@@ -104,13 +140,12 @@ void printScene(const profile::Suite& suite, const ProfiledScene& scene) {
     table.rows.push_back({suite.configurations[i].label, fixedText(t.error.penumbra.rmse, 4),
                           fixedText(t.counters.tapsPerPixel, 2), fixedText(times.frame.medianMs, 2),
                           fixedText(times.lightPasses.medianMs, 2),
-                          fixedText(times.receiverPasses.medianMs, 2)});
+                          fixedText(times.receiverPasses.medianMs, 2),
+                          fixedText(times.frameStatic.medianMs, 2), fixedText(times.frameCpu.medianMs, 2),
+                          fixedText(times.frameStaticCpu.medianMs, 2)});
   }
   print(table);
-  TextTable ratios{.header = {"time of / time of", "frame", "receiver passes"}};
-  ratios.rows = ratioTable(suite, scene.profile).rows;
-  if (!ratios.rows.empty()) print(ratios);
-  std::fflush(stdout);
+  printRatios(ratioTable(suite, scene.profile));
 }
 
 Status writeJsonFile(const std::filesystem::path& path, const measure::Json& json) {
@@ -136,15 +171,19 @@ ExitStatus makeProfile(const Arguments& arguments) {
                       "checked to be the measured one.",
       .device = report::deviceOf((*session)->engine().driver())};
   std::vector<profile::SceneProfile> profiles;
-  for (const std::string& source : suite->scenes) {
-    auto scene = profileScene(**session, *suite, source);
+  for (const profile::SuiteScene& profiled : suite->scenes) {
+    auto scene = profileScene(**session, *suite, profiled);
     if (!scene) return fail(scene.error());
     printScene(*suite, *scene);
     if (!suite->ratios.empty()) document.tables.push_back(ratioTable(*suite, scene->profile));
     document.scenes.push_back(std::move(scene->page));
     profiles.push_back(std::move(scene->profile));
   }
-  const auto scene = openScene({.source = suite->scenes.front()});
+  if (!suite->sceneRatios.empty()) {
+    document.tables.push_back(sceneRatioTable(*suite, profiles));
+    printRatios(document.tables.back());
+  }
+  const auto scene = openScene({.source = suite->scenes.front().source});
   if (!scene) return fail(scene.error());
   const auto device = profile::deviceProfile(
       **session, *scene, {.width = suite->width, .height = suite->height, .repetitions = suite->repetitions});
@@ -166,7 +205,9 @@ void addProfileCommand(CLI::App& app, ExitStatus& status) {
   const auto arguments = std::make_shared<Arguments>();
   CLI::App* command =
       app.add_subcommand("profile", "run time against error on this device; writes a device profile");
-  command->add_option("SUITE", arguments->suite, "quick, evans, or a suite's .json file")
+  command
+      ->add_option("SUITE", arguments->suite,
+                   "a suite of profiles/benchmarks (quick, evans, …), or its .json file")
       ->capture_default_str();
   command
       ->add_option("-o,--output", arguments->folder, "folder for profile.json, device.json and report.html")

@@ -9,9 +9,9 @@
 
 namespace halfshadow::profile {
 
-/// Which way of skipping the filter is fastest here, for a small and a large kernel of pcf-masked:
-/// {"driver": {…}, "settings": [{"key", "value", "reason"}], "choices": [{"setting", "kernel", "value", "ms":
-/// {"branch", "loop", "stencil"}, "reason"}]}. Errors: those of interleavedTimes.
+/// Which way of skipping the filter is fastest here, for a small and a large kernel of pcf-masked, and which
+/// prefilter of occlusion textures: {"driver": {…}, "settings": [{"key", "value", "reason"}], "choices":
+/// [{"setting", "value", "ms": {one time for each value}, "reason", …}]}. Errors: those of interleavedTimes.
 Result<measure::Json> deviceProfile(measure::EngineSession& session, const scene::SceneDescription& scene,
                                     const InterleavedOptions& options);
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <ctime>
 #include <set>
 
 namespace halfshadow::profile {
@@ -42,8 +43,23 @@ std::vector<Configuration> completed(Engine& engine, const std::vector<Configura
   return result;
 }
 
+/// Wall clock and processor time since it was made.
+class Stopwatch {
+ public:
+  double wallMs() const { return std::chrono::duration<double, std::milli>(Clock::now() - wall_).count(); }
+  double cpuMs() const { return 1e3 * static_cast<double>(std::clock() - cpu_) / CLOCKS_PER_SEC; }
+
+ private:
+  Clock::time_point wall_ = Clock::now();
+  std::clock_t cpu_ = std::clock();
+};
+
+struct FrameTime {
+  double wallMs = 0.0, cpuMs = 0.0;
+};
+
 struct Samples {
-  std::vector<double> frame, unchanged, light, receiver;
+  std::vector<double> frame, frameCpu, unchanged, unchangedCpu, light, receiver;
   std::vector<PassTime> passes;             ///< of the last frame
   std::vector<std::vector<double>> byPass;  ///< parallel to it
 
@@ -80,32 +96,27 @@ class Frames {
     return session_.choose(configuration.technique, configuration.settings);
   }
 
-  /// Moves the light and renders; `milliseconds` is the whole frame's time.
-  Status dynamicFrame(Timing timing, FrameReport& report, double& milliseconds) {
-    session_.engine().finish();
-    const Clock::time_point start = Clock::now();
-    moved_ = !moved_;
-    scene::AreaLight light = light_;
-    if (moved_) light.centerWorld -= scene::emissionDirection(light) * step_;
-    if (Status status = session_.setLights({light}); !status) return status;
-    return finishFrame(timing, start, report, milliseconds);
-  }
-
   Status repetition(Samples* samples) {
     FrameReport report;
-    double milliseconds = 0.0;
+    FrameTime time;
     // The first frame after a change of technique makes its targets; the second fills what the first
     // replaced.
     for (int i = 0; i < 2; ++i) {
-      if (Status status = dynamicFrame(Timing::off, report, milliseconds); !status) return status;
+      if (Status status = dynamicFrame(Timing::off, report, time); !status) return status;
     }
-    if (Status status = dynamicFrame(Timing::off, report, milliseconds); !status) return status;
-    if (samples != nullptr) samples->frame.push_back(milliseconds);
-    if (Status status = dynamicFrame(Timing::perPass, report, milliseconds); !status) return status;
+    if (Status status = dynamicFrame(Timing::off, report, time); !status) return status;
+    if (samples != nullptr) {
+      samples->frame.push_back(time.wallMs);
+      samples->frameCpu.push_back(time.cpuMs);
+    }
+    if (Status status = dynamicFrame(Timing::perPass, report, time); !status) return status;
     if (samples != nullptr) samples->addPasses(report);
     session_.engine().finish();
-    if (Status status = finishFrame(Timing::off, Clock::now(), report, milliseconds); !status) return status;
-    if (samples != nullptr) samples->unchanged.push_back(milliseconds);
+    if (Status status = timedFrame(Timing::off, Stopwatch(), report, time); !status) return status;
+    if (samples != nullptr) {
+      samples->unchanged.push_back(time.wallMs);
+      samples->unchangedCpu.push_back(time.cpuMs);
+    }
     return {};
   }
 
@@ -120,11 +131,22 @@ class Frames {
   }
 
  private:
-  Status finishFrame(Timing timing, Clock::time_point start, FrameReport& report, double& milliseconds) {
+  /// Moves the light and renders.
+  Status dynamicFrame(Timing timing, FrameReport& report, FrameTime& time) {
+    session_.engine().finish();
+    const Stopwatch watch;
+    moved_ = !moved_;
+    scene::AreaLight light = light_;
+    if (moved_) light.centerWorld -= scene::emissionDirection(light) * step_;
+    if (Status status = session_.setLights({light}); !status) return status;
+    return timedFrame(timing, watch, report, time);
+  }
+
+  Status timedFrame(Timing timing, const Stopwatch& watch, FrameReport& report, FrameTime& time) {
     desc_.timing = timing;
     if (Status status = session_.render(desc_, report); !status) return status;
     session_.engine().finish();
-    milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+    time = {watch.wallMs(), watch.cpuMs()};
     return {};
   }
 
@@ -174,6 +196,8 @@ Result<std::vector<FrameTimes>> interleavedTimes(measure::EngineSession& session
     }
     times[i].frameStatic = measure::timeStatistics(std::move(samples[i].unchanged));
     times[i].frame = measure::timeStatistics(std::move(samples[i].frame));
+    times[i].frameCpu = measure::timeStatistics(std::move(samples[i].frameCpu));
+    times[i].frameStaticCpu = measure::timeStatistics(std::move(samples[i].unchangedCpu));
     times[i].lightPasses = measure::timeStatistics(std::move(samples[i].light));
     times[i].receiverPasses = measure::timeStatistics(std::move(samples[i].receiver));
   }

@@ -20,8 +20,11 @@ struct PassTime {
 
 struct FrameTimes {
   bool supported = true;
-  measure::TimeStatistics frame;           ///< whole dynamic frames
-  measure::TimeStatistics frameStatic;     ///< whole frames in which nothing changed
+  measure::TimeStatistics frame;        ///< whole dynamic frames
+  measure::TimeStatistics frameStatic;  ///< whole frames in which nothing changed
+  /// The same in processor time of the whole process: on a software driver the cost of a frame, whatever else
+  /// the machine does; elsewhere what the frame costs the CPU.
+  measure::TimeStatistics frameCpu, frameStaticCpu;
   measure::TimeStatistics lightPasses;     ///< sum of the passes in light space, each waited for
   measure::TimeStatistics receiverPasses;  ///< sum of the others
   std::vector<PassTime> passes;            ///< of dynamic frames, in the order of drawing

@@ -15,8 +15,32 @@ Error malformed(const std::string& file, const std::string& text) {
   return {ErrorCode::fileMalformed, file + ": " + text + "; see profiles/benchmarks/quick.json for the form"};
 }
 
-bool hasLabel(const Suite& suite, const std::string& label) {
-  return std::ranges::any_of(suite.configurations, [&](const auto& c) { return c.label == label; });
+template <typename Labelled>
+bool hasLabel(const std::vector<Labelled>& list, const std::string& label) {
+  return std::ranges::any_of(list, [&](const auto& entry) { return entry.label == label; });
+}
+
+/// The first label that a ratio names and nothing has; empty when all exist.
+std::string missingLabel(const Suite& suite) {
+  for (const Ratio& ratio : suite.ratios) {
+    for (const std::string& label : {ratio.of, ratio.to}) {
+      if (!hasLabel(suite.configurations, label)) return label;
+    }
+  }
+  for (const SceneRatio& ratio : suite.sceneRatios) {
+    if (!hasLabel(suite.configurations, ratio.configuration)) return ratio.configuration;
+    if (!ratio.above.empty() && !hasLabel(suite.configurations, ratio.above)) return ratio.above;
+    for (const std::string& label : {ratio.of, ratio.to}) {
+      if (!hasLabel(suite.scenes, label)) return label;
+    }
+  }
+  return {};
+}
+
+SuiteScene sceneOf(const nlohmann::json& json) {
+  if (json.is_string()) return {.label = json.get<std::string>(), .source = json.get<std::string>()};
+  const auto source = json.at("source").get<std::string>();
+  return {.label = json.value("label", source), .source = source, .camera = json.value("camera", "")};
 }
 
 /// Throws nlohmann's exceptions for missing fields and wrong types.
@@ -28,7 +52,7 @@ Suite suiteOf(const nlohmann::json& json) {
   suite.height = json.at("size").at(1).get<int>();
   suite.samples = json.at("samples").get<int>();
   suite.repetitions = json.at("repetitions").get<int>();
-  suite.scenes = json.at("scenes").get<std::vector<std::string>>();
+  for (const auto& entry : json.at("scenes")) suite.scenes.push_back(sceneOf(entry));
   for (const auto& entry : json.at("configurations")) {
     SuiteConfiguration configuration;
     configuration.configuration.technique = entry.at("technique").get<std::string>();
@@ -45,6 +69,12 @@ Suite suiteOf(const nlohmann::json& json) {
       suite.ratios.push_back({entry.at("of").get<std::string>(), entry.at("to").get<std::string>()});
     }
   }
+  if (json.contains("scene_ratios")) {
+    for (const auto& entry : json.at("scene_ratios")) {
+      suite.sceneRatios.push_back({entry.at("configuration").get<std::string>(), entry.value("above", ""),
+                                   entry.at("of").get<std::string>(), entry.at("to").get<std::string>()});
+    }
+  }
   return suite;
 }
 
@@ -57,8 +87,9 @@ Result<Suite> readSuite(const std::string& nameOrFile) {
   const std::string file = path.string();
   std::ifstream stream(path);
   if (!stream) {
-    return Error{ErrorCode::fileNotFound,
-                 file + ": cannot be read; give a suite's .json file, or quick or evans"};
+    return Error{ErrorCode::fileNotFound, file +
+                                              ": cannot be read; give a suite's .json file, or the name of "
+                                              "one in profiles/benchmarks, such as quick"};
   }
   Suite suite;
   try {
@@ -73,11 +104,8 @@ Result<Suite> readSuite(const std::string& nameOrFile) {
   if (suite.scenes.empty() || suite.configurations.empty()) {
     return malformed(file, "\"scenes\" and \"configurations\" must not be empty");
   }
-  for (const Ratio& ratio : suite.ratios) {
-    for (const std::string& label : {ratio.of, ratio.to}) {
-      if (!hasLabel(suite, label))
-        return malformed(file, "\"ratios\" name \"" + label + "\", which no label is");
-    }
+  if (const std::string label = missingLabel(suite); !label.empty()) {
+    return malformed(file, "its ratios name \"" + label + "\", which no label is");
   }
   return suite;
 }

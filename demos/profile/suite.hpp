@@ -17,9 +17,22 @@ struct SuiteConfiguration {
   measure::Configuration configuration;
 };
 
+/// A scene, and the camera that replaces its own.
+struct SuiteScene {
+  std::string label;  ///< unique; by default the source
+  std::string source, camera;
+};
+
 /// The time of one configuration divided by that of another.
 struct Ratio {
   std::string of, to;  ///< labels
+};
+
+/// The time of one configuration in a scene divided by that of the same one in another scene, both less the
+/// time of the configuration `above` (empty: nothing): what a technique adds.
+struct SceneRatio {
+  std::string configuration, above;  ///< labels of configurations
+  std::string of, to;                ///< labels of scenes
 };
 
 struct Suite {
@@ -27,9 +40,10 @@ struct Suite {
   int width = 0, height = 0;
   int samples = 0;      ///< light points per pixel of the truth
   int repetitions = 0;  ///< timed frames of each configuration
-  std::vector<std::string> scenes;
+  std::vector<SuiteScene> scenes;
   std::vector<SuiteConfiguration> configurations;
   std::vector<Ratio> ratios;
+  std::vector<SceneRatio> sceneRatios;
 };
 
 /// `nameOrFile`: a file, or the name of one in profiles/benchmarks ("quick"). Errors: fileNotFound,

@@ -24,6 +24,18 @@ std::vector<std::uint32_t> largestFirst(const FrameInput& input, std::vector<std
   return receivers;
 }
 
+/// By the distance at which each may begin, so that what lies behind is rejected before its visibility is
+/// computed. Coincident surfaces keep their order: which of them wins stays the same.
+void sortFrontToBack(const FrameInput& input, std::vector<std::uint32_t>& receivers) {
+  std::vector<double> nearest(input.objects.size());
+  for (const std::uint32_t i : receivers) {
+    const scene::Bounds& bounds = input.objects[i].boundsWorld;
+    const glm::dvec3& eye = input.camera->eyeWorld;
+    nearest[i] = glm::length(glm::max(glm::max(bounds.low - eye, eye - bounds.high), glm::dvec3(0.0)));
+  }
+  std::ranges::stable_sort(receivers, {}, [&](std::uint32_t i) { return nearest[i]; });
+}
+
 bool shadowsAny(const FrameInput& input, const scene::AreaLight& light, std::uint32_t caster,
                 const std::vector<std::uint32_t>& receivers) {
   return std::any_of(receivers.begin(), receivers.end(), [&](std::uint32_t receiver) {
@@ -201,6 +213,7 @@ FramePlan FramePlanner::plan(const FrameInput& input) {
   }
   receivers.all = largestFirst(input, std::move(receivers.all));
   receivers.visible = largestFirst(input, plan.receivers);
+  if (input.camera) sortFrontToBack(input, plan.receivers);
   history_.resize(input.lights.size());
   for (std::size_t light = 0; light < input.lights.size(); ++light) {
     plan.lights.push_back(planLight(input, light, receivers, history_[light], plan.skips));

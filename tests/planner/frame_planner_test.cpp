@@ -49,6 +49,20 @@ bool hasSkip(const FramePlan& plan, const std::string& what, SkipReason reason) 
   return false;
 }
 
+TEST(FramePlanner, ReceiversAreDrawnFrontToBack) {
+  World world;
+  for (PlannedObject& object : world.objects) object.receives = true;
+  // The same box once more: coincident surfaces keep the order of their objects.
+  world.objects.push_back(world.objects[2]);
+  world.objects.back().id = 14;
+  world.camera.eyeWorld = {-90, 20, 0};
+  world.camera.targetWorld = {0, 0, 0};
+  FramePlanner planner;
+  EXPECT_EQ(world.plan(planner).receivers, (Indices{0, 2, 4, 1, 3}));
+  world.camera.eyeWorld = {90, 20, 0};
+  EXPECT_EQ(world.plan(planner).receivers, (Indices{1, 3, 0, 2, 4}));
+}
+
 TEST(FramePlanner, CameraOnlyMoveChangesNoKey) {
   World world;
   FramePlanner planner;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "techniques/occlusion_textures/slice_passes.hpp"
 
@@ -33,7 +34,8 @@ Choices readChoices(const Settings& settings) {
   };
   Choices choices;
   choices.preset = choice("preset") == "paper" ? Preset::paper : Preset::tuned;
-  const std::string filter = choice("filter");
+  std::string filter = choice("filter");
+  if (filter == "auto") filter = settings.choice("occlusion_prefilter");
   choices.filter = filter == "sat"      ? SliceFilter::summedArea
                    : filter == "mipmap" ? SliceFilter::mipmap
                                         : SliceFilter::nbuffer;
@@ -120,8 +122,9 @@ class OcclusionTextures final : public Technique {
              1024,
              {},
              "side of the occlusion textures in texels"},
-            choice("filter", "nbuffer", {"mipmap", "nbuffer", "sat"},
-                   "prefilter: hardware mipmaps, N-buffers, or exact summed-area tables"),
+            choice("filter", "auto", {"auto", "mipmap", "nbuffer", "sat"},
+                   "prefilter: hardware mipmaps, N-buffers, or exact summed-area tables; auto: "
+                   "occlusion_prefilter, the device profile's choice"),
             choice("combine", "auto", {"auto", "product", "sum", "max"},
                    "how shares of slices become one; auto: product for paper, sum for tuned"),
             choice("projection", "perspective", {"perspective", "orthographic"}, "of the slices"),
@@ -138,8 +141,9 @@ class OcclusionTextures final : public Technique {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
     }
-    auto space = makeSliceSpace(frame.fit, frame.casterPointsWorld, choices.slicing);
-    if (!space) return space.error();
+    const auto found = spaceOf(frame, choices.slicing);
+    if (!found) return found.error();
+    const SliceSpace* space = *found;
     for (const int empty : space->emptySlices) {
       frame.graph.noteSkipped(
           "light " + std::to_string(frame.lightIndex) + " occlusion slice " + std::to_string(empty + 1),
@@ -155,6 +159,26 @@ class OcclusionTextures final : public Technique {
   }
 
  private:
+  /// The space of a light's last frame: finding the slices that hold casters looks at every vertex.
+  struct KnownSpace {
+    std::uint64_t contentKey = 0;
+    SliceOptions options;
+    std::optional<SliceSpace> space;
+  };
+
+  /// Valid until the next call.
+  Result<const SliceSpace*> spaceOf(const LightFrame& frame, const SliceOptions& options) {
+    if (knownSpaces_.size() <= static_cast<std::size_t>(frame.lightIndex))
+      knownSpaces_.resize(static_cast<std::size_t>(frame.lightIndex) + 1);
+    KnownSpace& known = knownSpaces_[static_cast<std::size_t>(frame.lightIndex)];
+    if (!known.space || known.contentKey != frame.contentKey || known.options != options) {
+      auto made = makeSliceSpace(frame.fit, frame.casterPointsWorld, options);
+      if (!made) return made.error();
+      known = {frame.contentKey, options, std::move(made).value()};
+    }
+    return &*known.space;
+  }
+
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
                                          const SliceTextures& slices, const FilteredSlices& filtered) {
     const std::size_t slots = filtered.textures.size() * static_cast<std::size_t>(slices.slicesPerTexture);
@@ -197,6 +221,8 @@ class OcclusionTextures final : public Technique {
     };
     return shading;
   }
+
+  std::vector<KnownSpace> knownSpaces_;
 };
 }  // namespace
 

@@ -32,6 +32,7 @@ struct SliceOptions {
   SliceCenter center = SliceCenter::light;
   /// Also keep the slice behind an occupied one, which casters are projected on to close leaks.
   SliceSuccessors successors = SliceSuccessors::dropped;
+  bool operator==(const SliceOptions&) const = default;
 };
 
 /// A slice; borders in slice units.

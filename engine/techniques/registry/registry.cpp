@@ -44,7 +44,15 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
        0,
        0,
        {"branch", "loop", "stencil"},
-       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"}};
+       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"},
+      {"occlusion_prefilter",
+       SettingType::choice,
+       "nbuffer",
+       0,
+       0,
+       {"nbuffer", "sat"},
+       "what occlusion-textures.filter=auto means: the cheaper of the two accurate prefilters; device "
+       "profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }
