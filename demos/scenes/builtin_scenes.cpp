@@ -38,6 +38,7 @@ constexpr Entry kEntries[] = {
     {"terrain", "hills that shadow themselves, with trees and boxes", makeTerrain},
     {"sheets", "40 open, double-sided bent leaves", makeSheets},
     {"convex", "one smooth icosphere above the ground", makeConvex},
+    {"butterfly", "a butterfly with thin wings that rise through many heights", makeButterfly},
     {"large-world", "the figure 10,000 units away from the origin in x and z", makeFigure, 1.0, 1.0, 1e4},
     {"tiny", "the figure at a thousandth of its size, camera and light too", makeFigure, 1.0, 1e-3},
 };

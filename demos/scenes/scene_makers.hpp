@@ -25,6 +25,7 @@ scene::SceneDescription makeRoom(double lightHalfSize);
 scene::SceneDescription makeTerrain(double lightHalfSize);
 scene::SceneDescription makeSheets(double lightHalfSize);
 scene::SceneDescription makeConvex(double lightHalfSize);
+scene::SceneDescription makeButterfly(double lightHalfSize);
 
 /// Camera and light of the benchmark scenes other than `figure`; near and far are left to fitNearAndFar.
 void setBenchmarkView(scene::SceneDescription& description, double lightHalfSize);
