@@ -2,10 +2,12 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Shadow volumes against ray casting: they are exact, so only pixels cut by an outline may differ.
 #include <cmath>
+#include <filesystem>
 #include <glm/gtc/matrix_transform.hpp>
 
 #include "analytic_scenes.hpp"
 #include "hard_truth.hpp"
+#include "scenes/scene_source.hpp"
 #include "scenes/shapes.hpp"
 
 namespace halfshadow::test {
@@ -240,6 +242,16 @@ TEST_P(HardScenes, SeveralLightsOneChannelEach) {
   for (int i = 0; i < 3; ++i) {
     expectHard("light_" + std::to_string(i) + "_" + GetParam(), hardTruth(scene, static_cast<std::size_t>(i)),
                image, i);
+  }
+}
+
+TEST_P(HardScenes, RealModels) {
+  for (const char* name : {"cat", "CesiumMan", "low-poly-tree", "terrain"}) {
+    const std::string path = std::string(HALFSHADOW_SHARED_DIR) + "/scenes/" + name + ".glb";
+    if (!std::filesystem::exists(path)) GTEST_SKIP() << "needs " << path;
+    const auto opened = scenes::openScene(path, {});
+    ASSERT_TRUE(opened.ok()) << opened.error().message;
+    expectExact(name, *opened);
   }
 }
 

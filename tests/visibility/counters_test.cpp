@@ -155,7 +155,7 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene::SceneDescription scene = PlateOverGround().scene();
   scene.lights.front().intensity = 0.0;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled"}) {
+  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
     const Image dark = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(dark.rgba, 255), static_cast<std::ptrdiff_t>(dark.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "light-off")) << technique;
@@ -164,7 +164,7 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene.lights.front().intensity = 1.0;
   scene.objects.front().casts = false;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled"}) {
+  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
     const Image lit = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(lit.rgba, 255), static_cast<std::ptrdiff_t>(lit.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "no-casters")) << technique;

@@ -72,8 +72,8 @@ std::unique_ptr<SceneRenderer> countedRenderer() {
   return std::make_unique<SceneRenderer>(std::move(engine));
 }
 
-const std::vector<std::string> kTechniques = {"none",          "hard", "pcf",      "pcf-masked",
-                                              "pcf-quantized", "pcss", "pcss-mip", "sampled"};
+const std::vector<std::string> kTechniques = {"none", "hard",     "pcf",     "pcf-masked",   "pcf-quantized",
+                                              "pcss", "pcss-mip", "sampled", "shadow-volume"};
 
 /// A host's framebuffer: RGBA8 and 16-bit depth, filled with one colour.
 class HostFramebuffer {
