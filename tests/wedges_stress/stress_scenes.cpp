@@ -76,7 +76,8 @@ Shape withSlivers(Shape shape) {
 
 std::vector<StressScene> makeScenes() {
   const scene::AreaLight above = lightAbove({2, 12, 1}, 1.0, 1.0);
-  const scene::Camera usual = lookAt({4, 6, 7}, {-0.5, 0.5, 0});
+  // No corner of the ground lies in the plane of the eye: SwiftShader loses such triangles' varyings.
+  const scene::Camera usual = lookAt({4, 6, 7.3}, {-0.5, 0.5, 0});
   const scene::SceneObject ground = groundPlane(40.0);
   std::vector<StressScene> all;
   const auto add = [&](const char* name, scene::SceneDescription scene, double allowance = 1.0,

@@ -33,6 +33,18 @@ Range fineRange(std::span<const ReceiverLists> receivers) {
   return range;
 }
 
+/// The step of each coordinate: fine, and wide enough for the coarsest code to reach every vertex, since a
+/// clamped coordinate would turn edges.
+glm::vec3 stepOf(std::span<const ReceiverLists> receivers, const Range& fine, const glm::vec3& center) {
+  glm::vec3 farthest(0.0f);
+  for (const ReceiverLists& receiver : receivers) {
+    for (const CellRecord& record : receiver.lists->records)
+      farthest = glm::max(farthest, glm::abs(record.ti - center));
+  }
+  return glm::max(glm::max((fine.high - fine.low) / 65534.0f, farthest / (32766.0f * 255.0f)),
+                  glm::vec3(1e-12f));
+}
+
 void encodeRecord(const CellRecord& record, const glm::vec3& center, const glm::vec3& step,
                   std::uint8_t* texels) {
   const glm::vec3 offset = (record.ti - center) / step;
@@ -78,7 +90,7 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   if (recordCount > 0) {
     const Range range = fineRange(receivers);
     result.center = 0.5f * (range.low + range.high);
-    result.step = glm::max((range.high - range.low) / 65534.0f, glm::vec3(1e-12f));
+    result.step = stepOf(receivers, range, result.center);
   }
   // Rows grow in powers of two, so that the texture seldom changes its size.
   std::size_t height = 1;
