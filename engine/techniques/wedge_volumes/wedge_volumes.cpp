@@ -57,7 +57,39 @@ double farthestReceiver(const LightFrame& frame) {
   return farthest;
 }
 
-std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear) {
+/// Half side of a square of (a, b) around every receiver, at least twice as wide: a power of two, so that it
+/// seldom changes.
+double reachOf(const LightFrame& frame, const scene::LightPlane& plane) {
+  double farthest = 1.0;
+  for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
+    for (const DrawItem& item : items) {
+      for (const glm::dvec3& corner : item.boundsWorld.corners()) {
+        const glm::dvec3 abh = plane.fromWorld(corner);
+        farthest = std::max({farthest, std::abs(abh.x), std::abs(abh.y)});
+      }
+    }
+  }
+  return std::exp2(std::ceil(std::log2(farthest)) + 1.0);
+}
+
+/// Near the light's plane penumbrae spread almost sideways, to corners so far away that rasterisers lose
+/// their depth. A side that leaves the receivers' reach stands upright at its border instead.
+bool leavesReach(const WedgeExtent& extent, double reach) {
+  const glm::dvec2 low = extent.low(kFarthest), high = extent.high(kFarthest);
+  return std::min(low.x, low.y) < -reach || std::max(high.x, high.y) > reach;
+}
+glm::dvec2 lowWithin(const WedgeExtent& extent, double h, double reach) {
+  const glm::dvec2 low = extent.low(h), end = extent.low(kFarthest);
+  return {end.x < -reach ? std::min(-reach, extent.low(extent.nearest).x) : low.x,
+          end.y < -reach ? std::min(-reach, extent.low(extent.nearest).y) : low.y};
+}
+glm::dvec2 highWithin(const WedgeExtent& extent, double h, double reach) {
+  const glm::dvec2 high = extent.high(h), end = extent.high(kFarthest);
+  return {end.x > reach ? std::max(reach, extent.high(extent.nearest).x) : high.x,
+          end.y > reach ? std::max(reach, extent.high(extent.nearest).y) : high.y};
+}
+
+std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear, double reach) {
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
   const glm::dvec3 grid(pieces.stepAB, pieces.stepAB, pieces.stepH);
@@ -77,7 +109,7 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear) {
     const double nearest = piece.extent.nearest;
     const double last = std::min(piece.extent.farthest + allNear, kFarthest);
     for (const double h : {nearest, last, kFarthest}) {
-      const glm::dvec2 low = piece.extent.low(h), high = piece.extent.high(h);
+      const glm::dvec2 low = lowWithin(piece.extent, h, reach), high = highWithin(piece.extent, h, reach);
       const glm::dvec2 grown = kMargin * (high - low + 1.0);
       for (int corner = 0; corner < 4; ++corner) {
         vertex.corner = glm::dvec3(corner & 1 ? high.x + grown.x : low.x - grown.x,
@@ -110,8 +142,9 @@ Status uploadIndices(gl::Context& context, gl::Buffer& buffer, std::size_t piece
   return upload(context, buffer, gl::BufferTarget::index, std::as_bytes(std::span(indices)));
 }
 
-std::uint64_t keyOf(const LightFrame& frame, double farthest) {
-  return planner::combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest));
+std::uint64_t keyOf(const LightFrame& frame, double farthest, double reach) {
+  return planner::combineKeys(planner::combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest)),
+                              std::bit_cast<std::uint64_t>(reach));
 }
 
 /// Points whose hull contains everything between the eye and the near plane's rectangle.
@@ -127,7 +160,8 @@ std::array<glm::dvec3, 5> eyeHull(const View& view, const scene::LightPlane& pla
 }
 
 /// True when one side of the volume keeps all of the hull outside, with some to spare.
-bool eyeOutside(const WedgeExtent& extent, const std::array<glm::dvec3, 5>& hull) {
+bool eyeOutside(const WedgeExtent& extent, double reach, const std::array<glm::dvec3, 5>& hull) {
+  if (leavesReach(extent, reach)) return false;
   bool outside[6] = {true, true, true, true, true, true};
   for (const glm::dvec3& eye : hull) {
     const glm::dvec2 low = extent.low(eye.z) - 0.01, high = extent.high(eye.z) + 0.01;
@@ -171,10 +205,13 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
 Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
   const double farthest = std::max(farthestReceiver(frame), 1e-9);
-  const std::uint64_t key = keyOf(frame, farthest);
+  const scene::LightPlane plane(frame.light, farthest, kMinHalfLength * farthest);
+  const double reach = reachOf(frame, plane);
+  const std::uint64_t key = keyOf(frame, farthest, reach);
   if (volumes.contentKey == key) return &volumes;
   volumes.contentKey = 0;
-  volumes.plane = scene::LightPlane(frame.light, farthest, kMinHalfLength * farthest);
+  volumes.plane = plane;
+  volumes.reach = reach;
   std::vector<scene::PlacedCaster> casters;
   for (std::uint32_t i = 0; i < frame.casters.size(); ++i) {
     casters.push_back({.mesh = &frame.casters[i].halfEdges(),
@@ -186,7 +223,8 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
   if (!volumes.pieces.pieces.empty()) {
     const bool highp = frame.capabilities.has(gl::Capability::highp);
-    const std::vector<Vertex> stream = vertexStream(volumes.pieces, highp ? kAllNear : kAllNearWithoutHighp);
+    const std::vector<Vertex> stream =
+        vertexStream(volumes.pieces, highp ? kAllNear : kAllNearWithoutHighp, reach);
     if (Status s = upload(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                           std::as_bytes(std::span(stream)));
         !s) {
@@ -232,7 +270,7 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   for (const CasterRange& range : casters) {
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
       const WedgeCaster& caster = volumes.pieces.casters[i];
-      const bool casterOutside = eyeOutside(caster.extent, hull);
+      const bool casterOutside = eyeOutside(caster.extent, volumes.reach, hull);
       if (casterOutside != outside || caster.firstPiece != end) {
         flush(outside, first, end);
         first = caster.firstPiece, outside = casterOutside;

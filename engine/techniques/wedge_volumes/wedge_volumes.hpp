@@ -15,6 +15,7 @@ namespace halfshadow::techniques {
 struct WedgeVolumes {
   std::uint64_t contentKey = 0;
   scene::LightPlane plane;
+  double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   WedgePieces pieces;
   gl::Buffer vertices, indices;
 };
