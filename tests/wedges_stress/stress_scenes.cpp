@@ -101,9 +101,11 @@ std::vector<StressScene> makeScenes() {
   add("edges-along-rays",
       sceneOf({box({0, 1.5, 0}, {0.02, 1.5, 0.02}), box({1, 1, 0}, {0.3, 1, 0.3}), ground},
               lightAbove({0, 8, 0}, 0.5, 0.5), lookAt({2, 5, 5}, {0, 0.5, 0})));
+  // The wall's shadow spreads without end: its penumbra is where the bits of places count most.
   add("receiver-through-light-plane",
       sceneOf({box({0.5, 1, 0}, {0.4, 0.4, 0.4}), box({-2, 3, 0}, {0.1, 3, 3}), ground},
-              lightAbove({0, 3, 0}, 0.5, 0.5), lookAt({5, 4, 5}, {-1, 1.5, 0})));
+              lightAbove({0, 3, 0}, 0.5, 0.5), lookAt({5, 4, 5}, {-1, 1.5, 0})),
+      1.3);
   Shape frame;
   for (const double side : {-1.0, 1.0}) {
     frame.append(scenes::boxShape({side * 1.5, 4.2, 0}, {0.2, 1.0, 1.7}));
