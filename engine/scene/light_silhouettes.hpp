@@ -48,6 +48,9 @@ struct LightSilhouettes {
   struct Caster {
     std::uint32_t object = 0, part = 0;
     std::uint32_t firstLoop = 0, loopCount = 0;
+    /// With LayerSplit::alongside: so many of the next entries are this one's layers, for receivers behind
+    /// it.
+    std::uint32_t layerCount = 0;
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds of its loops in (a, b, h)
     /// Else one side of a sheet: the faces that look towards the light and those that look away are two
     /// entries, so that one entry covers nothing twice unless the surface itself folds.
@@ -65,11 +68,14 @@ struct LightSilhouettes {
 };
 
 /// How often one entry may cover the same ground, seen from the source point. A caster that hides parts of
-/// itself, like a person's arm before the body, has loops that lie within each other or cross.
+/// itself, like a person's arm before the body, has loops that lie within each other or cross. Layers step
+/// from one such loop to the other along the ray from the source: they are meant for receivers behind the
+/// whole caster (h above its `high.z`); receivers on the caster itself need the loops as they are.
 enum class LayerSplit {
-  none,     ///< one entry a part; its loops count each layer
-  layers,   ///< one entry a layer: what is covered at all, at least twice, …; they add up to the same
-  outline,  ///< the first layer only: what is covered at all
+  none,       ///< one entry a part; its loops count each layer
+  layers,     ///< one entry a layer: what is covered at all, at least twice, … as far as that is large
+  outline,    ///< the first layer only: what is covered at all
+  alongside,  ///< the entry as it is, followed by its layers where it has more than one
 };
 
 /// Silhouettes seen from the point (sourceA, sourceB) of the light, cut at h = minHeight (> 0, small): what

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace halfshadow::scene {
 namespace {
@@ -42,21 +41,32 @@ class LayerSplitter {
       return;
     }
     if (split == LayerSplit::outline) layers.resize(1);
-    for (std::size_t i = layers.size(); i-- > 1;) {
-      if (layers[i].area > 0.01 * layers[0].area) continue;
-      std::move(layers[i].loops.begin(), layers[i].loops.end(), std::back_inserter(layers[i - 1].loops));
-      layers[i].loops.clear();
+    dropSmallLoops(layers);
+    if (split == LayerSplit::alongside) {
+      copy(caster, out);
+      out.casters.back().layerCount = static_cast<std::uint32_t>(layers.size());
     }
-    for (const Layer& layer : layers) {
-      if (!layer.loops.empty()) emit(caster, layer, out);
-    }
+    for (const Layer& layer : layers) emit(caster, layer, out);
   }
 
  private:
+  struct FlatLoop {
+    std::vector<glm::vec3> points;
+    double area = 0.0;  ///< of the projection
+  };
   struct Layer {
-    std::vector<std::vector<glm::vec3>> loops;
+    std::vector<FlatLoop> loops;
     double area = 0.0;
   };
+
+  /// Jagged outlines of fine meshes cover slivers twice: they cost vertices and darken nothing that is seen.
+  static void dropSmallLoops(std::vector<Layer>& layers) {
+    const double least = 0.01 * layers[0].area;
+    for (std::size_t i = 1; i < layers.size(); ++i) {
+      std::erase_if(layers[i].loops, [&](const FlatLoop& loop) { return std::abs(loop.area) < least; });
+    }
+    while (layers.size() > 1 && layers.back().loops.empty()) layers.pop_back();
+  }
 
   glm::dvec2 flat(const glm::dvec3& p) const { return (glm::dvec2(p) - sourcePoint_) / p.z; }
 
@@ -201,7 +211,7 @@ class LayerSplitter {
     if (loop.size() < 3) return;
     const auto layer = static_cast<std::size_t>(std::max(1, winding(probe))) - 1;
     if (layers.size() <= layer) layers.resize(layer + 1);
-    layers[layer].loops.push_back(std::move(loop));
+    layers[layer].loops.push_back({std::move(loop), area});
     layers[layer].area += area;
   }
 
@@ -211,10 +221,10 @@ class LayerSplitter {
     entry.loopCount = static_cast<std::uint32_t>(layer.loops.size());
     entry.low = glm::vec3(1e30f);
     entry.high = glm::vec3(-1e30f);
-    for (const std::vector<glm::vec3>& loop : layer.loops) {
+    for (const FlatLoop& loop : layer.loops) {
       out.loops.push_back(
-          {static_cast<std::uint32_t>(out.points.size()), static_cast<std::uint32_t>(loop.size())});
-      for (const glm::vec3& p : loop) {
+          {static_cast<std::uint32_t>(out.points.size()), static_cast<std::uint32_t>(loop.points.size())});
+      for (const glm::vec3& p : loop.points) {
         out.points.push_back(p);
         entry.low = glm::min(entry.low, p);
         entry.high = glm::max(entry.high, p);

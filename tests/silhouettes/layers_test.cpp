@@ -69,7 +69,7 @@ class Layers : public ::testing::Test {
   }
 };
 
-TEST_F(Layers, CoverOnceEachAndAddUp) {
+TEST_F(Layers, CoverOnceEach) {
   for (const Triangles& triangles : selfHiding()) {
     const HalfEdgeMesh mesh = HalfEdgeMesh::build(triangles.mesh());
     const LightSilhouettes whole = silhouettesOf(mesh, LayerSplit::none);
@@ -79,39 +79,50 @@ TEST_F(Layers, CoverOnceEachAndAddUp) {
     ASSERT_GE(layers.casters.size(), 2u);
     ASSERT_EQ(outline.casters.size(), 1u);
     Random random(4);
-    int doubled = 0, notOnce = 0, wrongSum = 0, wrongOutline = 0;
+    int doubled = 0, wrongFirst = 0, wrongOutline = 0, lost = 0, tooMuch = 0;
     constexpr int kTargets = 4000;
     for (int i = 0; i < kTargets; ++i) {
       const glm::dvec3 target = plane.fromWorld(random.inBox(1.5));
       const int all = sumOfWindings(whole, source, target);
       doubled += all > 1;
-      wrongSum += sumOfWindings(layers, source, target) != all;
-      for (std::size_t k = 0; k + 1 < layers.casters.size(); ++k) {
-        notOnce += winding(layers, layers.casters[k], source, target) != (all > static_cast<int>(k));
-      }
+      wrongFirst += winding(layers, layers.casters[0], source, target) != (all > 0);
       wrongOutline += winding(outline, outline.casters[0], source, target) != (all > 0);
+      for (std::size_t k = 1; k < layers.casters.size(); ++k) {
+        const int turns = winding(layers, layers.casters[k], source, target);
+        tooMuch += turns > (all > static_cast<int>(k)) || turns < 0;
+        lost += k == 1 && all > 1 && turns == 0;
+      }
     }
     EXPECT_GT(doubled, kTargets / 40);
     // Points are stored as floats: a target within 1e-7 of an edge may fall on either side.
-    EXPECT_LE(wrongSum, kTargets / 1000);
-    EXPECT_LE(notOnce, kTargets / 1000);
+    EXPECT_LE(wrongFirst, kTargets / 1000);
     EXPECT_LE(wrongOutline, kTargets / 1000);
+    EXPECT_LE(tooMuch, kTargets / 1000);
+    // Dropped slivers are each below 1 % of the first layer; on these smooth bodies there are few.
+    EXPECT_LE(lost, doubled / 4);
   }
 }
 
-TEST_F(Layers, AddUpSeenFromElsewhereInTheLight) {
+TEST_F(Layers, TheOutlineStaysClosedSeenFromElsewhereInTheLight) {
   for (const Triangles& triangles : selfHiding()) {
     const HalfEdgeMesh mesh = HalfEdgeMesh::build(triangles.mesh());
     const LightSilhouettes whole = silhouettesOf(mesh, LayerSplit::none);
-    const LightSilhouettes layers = silhouettesOf(mesh, LayerSplit::layers);
+    const LightSilhouettes outline = silhouettesOf(mesh, LayerSplit::outline);
     Random random(8);
-    int wrong = 0;
-    for (int i = 0; i < 4000; ++i) {
-      const glm::dvec2 other(random.between(-1, 1), random.between(-1, 1));
-      const glm::dvec3 target = plane.fromWorld(random.inBox(1.5));
-      wrong += sumOfWindings(layers, other, target) != sumOfWindings(whole, other, target);
+    int covered = 0, leaks = 0;
+    constexpr int kTargets = 4000;
+    for (int i = 0; i < kTargets; ++i) {
+      // A quarter of the light, as a sub-light sees it.
+      const glm::dvec2 other = source + glm::dvec2(random.between(-0.5, 0.5), random.between(-0.5, 0.5));
+      const glm::dvec3 target = plane.fromWorld(random.inBox(1.5) + glm::dvec3(-4, -2.4, -1.6));
+      const int all = sumOfWindings(whole, other, target);
+      covered += all > 0;
+      leaks += all > 0 && sumOfWindings(outline, other, target) == 0;
     }
-    EXPECT_LE(wrong, 8);  // steps along rays start and end at rounded points: slivers of 1e-7
+    EXPECT_GT(covered, kTargets / 20);
+    // What was hidden behind the outline comes out at its border only, by the parallax of half a light: a
+    // few per cent of what is covered.
+    EXPECT_LE(leaks, covered / 10);
   }
 }
 
@@ -136,12 +147,33 @@ TEST_F(Layers, AHoleStaysInItsLayer) {
   EXPECT_EQ(winding(result, result.casters[0], {0, 0}, above.fromWorld({1, 0, 0})), 1);
 }
 
+TEST_F(Layers, StandAlongsideTheEntryTheyCameFrom) {
+  const HalfEdgeMesh hiding = HalfEdgeMesh::build(selfHiding()[0].mesh());
+  const HalfEdgeMesh convex = HalfEdgeMesh::build(sphere(2).mesh());
+  const std::vector<PlacedCaster> casters{{&hiding, glm::dmat4(1.0), 7}, {&convex, glm::dmat4(1.0), 8}};
+  LightSilhouettes both, whole, layers;
+  scene::lightSilhouettes(casters, plane, 0, 0, kMinHeight, both, LayerSplit::alongside);
+  scene::lightSilhouettes(casters, plane, 0, 0, kMinHeight, whole, LayerSplit::none);
+  scene::lightSilhouettes(casters, plane, 0, 0, kMinHeight, layers, LayerSplit::layers);
+  ASSERT_EQ(both.casters.size(), whole.casters.size() + layers.casters.size() - 1);
+  EXPECT_EQ(both.casters[0].loopCount, whole.casters[0].loopCount);
+  EXPECT_EQ(both.casters[0].layerCount, layers.casters.size() - 1);
+  for (std::size_t k = 1; k <= both.casters[0].layerCount; ++k) {
+    EXPECT_EQ(both.casters[k].object, 7u);
+    EXPECT_EQ(both.casters[k].layerCount, 0u);
+    EXPECT_EQ(both.casters[k].loopCount, layers.casters[k - 1].loopCount);
+  }
+  EXPECT_EQ(both.casters.back().object, 8u);
+  EXPECT_EQ(both.casters.back().layerCount, 0u);
+}
+
 TEST_F(Layers, AreKeptByTheCache) {
   const HalfEdgeMesh mesh = HalfEdgeMesh::build(selfHiding()[0].mesh());
   const std::vector<PlacedCaster> casters{{&mesh, glm::dmat4(1.0), 0, 1}, {&mesh, glm::dmat4(1.0), 1, 2}};
   scene::LightSilhouetteCache cache;
   LightSilhouettes anew;
-  for (const LayerSplit split : {LayerSplit::layers, LayerSplit::outline, LayerSplit::none}) {
+  for (const LayerSplit split :
+       {LayerSplit::layers, LayerSplit::outline, LayerSplit::alongside, LayerSplit::none}) {
     const auto& cached = cache.update(casters, plane, source.x, source.y, kMinHeight, split);
     EXPECT_EQ(cache.counters().extracted, 2u);
     scene::lightSilhouettes(casters, plane, source.x, source.y, kMinHeight, anew, split);

@@ -61,24 +61,26 @@ TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
   return all;
 }
 
-void simplifyAll(std::span<const CasterLoops> casters, const SubLight& light, const TangentBox& receivers,
-                 BlockCasters& result) {
+void simplifyAll(const SubLightLoops& loops, const TangentBox& receivers, BlockCasters& result) {
   result.full = false;
   result.partial.clear();
   thread_local CasterLoops simplified;
-  for (const CasterLoops& caster : casters) {
-    switch (simplify(caster, light, receivers, simplified)) {
-      case Coverage::none:
-        break;
-      case Coverage::full:
-        result.full = true;
-        result.partial.clear();
-        return;
-      case Coverage::partial:
-        result.partial.push_back(simplified);
-        break;
+  const auto add = [&](std::span<const CasterLoops> casters) {
+    for (const CasterLoops& caster : casters) {
+      const bool behind = caster.low.z >= receivers.iHigh;
+      if (behind && caster.layerCount > 0) continue;
+      const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
+      if (coverage == Coverage::partial) result.partial.push_back(simplified);
+      result.full = result.full || coverage == Coverage::full;
+    }
+  };
+  add(loops.casters);
+  for (const CasterLoops& caster : loops.casters) {
+    if (caster.low.z >= receivers.iHigh) {
+      add(std::span(loops.layers).subspan(caster.firstLayer, caster.layerCount));
     }
   }
+  if (result.full) result.partial.clear();
 }
 
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
@@ -118,7 +120,7 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTile
       const TangentBox all = blockBox(tiles, x0, y0);
       if (all.empty()) continue;
       for (std::size_t s = 0; s < subLights.size(); ++s) {
-        simplifyAll(subLights[s].casters, subLights[s].light, all, block[s]);
+        simplifyAll(subLights[s], all, block[s]);
       }
       for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {

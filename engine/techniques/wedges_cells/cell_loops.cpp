@@ -88,6 +88,7 @@ void CasterLoops::clear() {
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
   enclosesLight = false;
+  firstLayer = layerCount = 0;
 }
 
 void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
@@ -102,8 +103,13 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
+  std::uint32_t layersLeft = 0;
   for (const scene::LightSilhouettes::Caster& source : silhouettes.casters) {
-    CasterLoops& caster = result.casters.emplace_back();
+    const bool isLayer = layersLeft > 0;
+    layersLeft = isLayer ? layersLeft - 1 : source.layerCount;
+    CasterLoops& caster = (isLayer ? result.layers : result.casters).emplace_back();
+    caster.firstLayer = static_cast<std::uint32_t>(result.layers.size());
+    caster.layerCount = source.layerCount;
     caster.enclosesLight = source.enclosesLight;
     for (std::uint32_t l = source.firstLoop; l < source.firstLoop + source.loopCount; ++l) {
       loop.clear();

@@ -23,6 +23,9 @@ struct CasterLoops {
   std::vector<Loop> loops;
   glm::vec3 low{1e30f}, high{-1e30f};
   bool enclosesLight = false;
+  /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
+  /// it; none where it does not hide itself.
+  std::uint32_t firstLayer = 0, layerCount = 0;
 
   void clear();
   void addLoop(std::span<const glm::vec3> loop);
@@ -32,7 +35,9 @@ struct CasterLoops {
 struct SubLightLoops {
   SubLight light;
   std::vector<CasterLoops> casters;
+  std::vector<CasterLoops> layers;
 };
+/// `silhouettes` with layers alongside (scene::LayerSplit).
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light);
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side

@@ -119,8 +119,9 @@ void WedgesCells::findSilhouettes(const LightFrame& frame, LightLists& lists) {
   const auto quarters = subLights();
   for (std::size_t i = 0; i < quarters.size(); ++i) {
     const glm::vec2 source = quarters[i].center;
-    lists.subLights.push_back(loopsOf(
-        lists.silhouettes[i].update(casters, lists.plane, source.x, source.y, kMinHeight), quarters[i]));
+    lists.subLights.push_back(loopsOf(lists.silhouettes[i].update(casters, lists.plane, source.x, source.y,
+                                                                  kMinHeight, scene::LayerSplit::alongside),
+                                      quarters[i]));
   }
   lists.shadows = shadowedTangents(lists.subLights);
   lists.receivers.clear();
