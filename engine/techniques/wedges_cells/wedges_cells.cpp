@@ -152,7 +152,10 @@ Status WedgesCells::encode(const LightFrame& frame, LightLists& lists) {
       used.push_back(item.geometry);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
     }
-    if (!changed && used == lists.encoded) return {};
+    // Receivers come in the camera's order; what is encoded does not depend on it.
+    std::vector<const void*> inSomeOrder = used;
+    std::ranges::sort(inSomeOrder);
+    if (!changed && inSomeOrder == lists.encoded) return {};
     EncodedLists encoded;
     if (encodeLists(receivers, maxRows, encoded)) {
       if (Status s = upload(frame.context, encoded.tiles, lists.tiles); !s) return s;
@@ -161,7 +164,7 @@ Status WedgesCells::encode(const LightFrame& frame, LightLists& lists) {
       lists.step = encoded.step;
       for (std::size_t i = 0; i < used.size(); ++i)
         lists.receivers[used[i]].firstTexel = encoded.firstTexel[i];
-      lists.encoded = std::move(used);
+      lists.encoded = std::move(inSomeOrder);
       return {};
     }
     // Half as many tiles a side: lists grow by less than their number shrinks.
