@@ -36,7 +36,7 @@ struct LightLists {
   double tileSize = 1.0;
   double lift = 0.0;                                ///< world units
   std::map<const void*, CachedReceiver> receivers;  ///< by the object's geometry
-  std::vector<const void*> encoded;                 ///< those in the textures, in order
+  std::vector<const void*> encoded;                 ///< those in the textures, by address
   gl::Texture tiles, records;
   glm::vec3 center{0.0f}, step{1.0f};
   std::uint32_t longestList = 0;
