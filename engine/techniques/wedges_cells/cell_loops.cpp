@@ -21,48 +21,54 @@ void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>&
   }
 }
 
-/// Drops the inner vertices of runs that lie beyond one side. Vertices with i < iNear stay: some receivers
-/// have them behind, cut the loop there, and need both ends of the cut.
-void collapseRuns(const std::vector<glm::vec3>& loop, const OuterSides& sides, float iNear,
-                  std::vector<glm::vec3>& out, bool& crosses) {
+/// A vertex of a loop under simplification. `sure`: it lies before every receiver.
+struct Judged {
+  glm::vec3 ti{0.0f};
+  unsigned code = 0;
+  bool sure = true;
+};
+
+/// Drops what lies between two vertices of a run beyond one side. Both must be before every receiver: then,
+/// for each receiver, the dropped path and the edge that replaces it lie in one convex region that holds no
+/// part of the light, with the same ends, wherever the receiver's height cuts the path between. True when
+/// some edge may cover part of the light for some receiver.
+bool collapseRuns(const std::vector<Judged>& loop, std::vector<Judged>& out) {
+  constexpr std::size_t kNone = ~std::size_t{0};
   out.clear();
-  crosses = false;
   const std::size_t count = loop.size();
-  const auto codeOf = [&](const glm::vec3& v) { return v.z < iNear ? 0u : sides.code(v); };
   // Starting inside, where no run passes, no run is split.
   std::size_t start = 0;
-  while (start < count && codeOf(loop[start]) != 0) ++start;
+  while (start < count && (loop[start].code != 0 || !loop[start].sure)) ++start;
   start = start == count ? 0 : start;
   out.push_back(loop[start]);
-  unsigned lastCode = codeOf(loop[start]), run = lastCode, pendingCode = 0;
-  const glm::vec3* pending = nullptr;
+  std::size_t anchor =
+      loop[start].sure && loop[start].code != 0 ? 0 : kNone;  // in `out`: where the run began
+  unsigned run = loop[start].code;
   for (std::size_t k = 1; k <= count; ++k) {
-    const glm::vec3& v = loop[(start + k) % count];
-    const unsigned code = codeOf(v);
-    if ((run & code) != 0) {
-      run &= code;
-      pending = &v;
-      pendingCode = code;
+    const Judged& v = loop[(start + k) % count];
+    if (anchor != kNone && (run & v.code) != 0) {
+      run &= v.code;
+      if (v.sure) out.resize(anchor + 1);
+      out.push_back(v);
       continue;
     }
-    if (pending != nullptr) {
-      out.push_back(*pending);
-      lastCode = pendingCode;
-      pending = nullptr;
-    }
-    run = lastCode & code;
-    if (run != 0) {
-      pending = &v;
-      pendingCode = code;
+    // The run may go on from the last vertex alone, beyond another side.
+    if (out.back().sure && (out.back().code & v.code) != 0) {
+      anchor = out.size() - 1;
+      run = out.back().code & v.code;
     } else {
-      crosses = true;
-      out.push_back(v);
-      lastCode = run = code;
+      anchor = v.sure && v.code != 0 ? out.size() : kNone;
+      run = v.code;
     }
+    out.push_back(v);
   }
-  if (pending != nullptr) out.push_back(*pending);
   // The walk ended where it began: the first vertex is there twice.
   out.pop_back();
+  for (std::size_t k = 0; k < out.size(); ++k) {
+    const Judged& next = out[k + 1 == out.size() ? 0 : k + 1];
+    if (!out[k].sure || (out[k].code & next.code) == 0) return true;
+  }
+  return false;
 }
 
 /// Winding number of a loop that never crosses the sub-light, around the sub-light's centre.
@@ -152,23 +158,30 @@ Coverage simplify(const CasterLoops& caster, const SubLight& light, const Tangen
   if (caster.high.z <= iFar) return Coverage::none;
   const OuterSides sides(light, receivers);
   if (sides.code(caster.low, caster.high) != 0) return Coverage::none;
-  thread_local std::vector<glm::vec3> cut, collapsed;
+  thread_local std::vector<glm::vec3> cut, kept;
+  thread_local std::vector<Judged> judged, collapsed;
   int constant = 0;
   bool partial = false;
   for (const CasterLoops::Loop& loop : caster.loops) {
-    const std::span<const glm::vec3> points(caster.points.data() + loop.first, loop.count);
-    cutFar(points, iFar, cut);
+    cutFar({caster.points.data() + loop.first, loop.count}, iFar, cut);
     if (cut.size() < 3) continue;
-    bool crosses = false;
-    collapseRuns(cut, sides, receivers.iHigh, collapsed, crosses);
-    if (crosses && collapsed.size() >= 3) {
-      result.addLoop(collapsed);
-      partial = true;
-    } else if (collapsed.size() >= 3) {
-      const int winding = windingNumber(cut, light, receivers.center());
-      constant += winding;
-      if (winding != 0) result.addLoop(collapsed);
+    judged.clear();
+    unsigned common = ~0u;
+    for (const glm::vec3& v : cut) {
+      judged.push_back({v, sides.code(v), v.z >= receivers.iHigh});
+      common &= judged.back().code;
     }
+    // What is left of it lies beyond one side, wherever receivers cut it.
+    if (common != 0) continue;
+    const bool crosses = collapseRuns(judged, collapsed);
+    if (collapsed.size() < 3) continue;
+    kept.clear();
+    for (const Judged& v : collapsed) kept.push_back(v.ti);
+    const int winding = crosses ? 0 : windingNumber(cut, light, receivers.center());
+    if (!crosses && winding == 0) continue;
+    result.addLoop(kept);
+    partial = partial || crosses;
+    constant += winding;
   }
   if (partial) return Coverage::partial;
   result.clear();

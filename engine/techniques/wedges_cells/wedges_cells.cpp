@@ -17,6 +17,10 @@ constexpr double kMinHeight = 1e-3;
 /// A point light counts as a square this wide, in the same units: hard shadows to a fraction of a pixel.
 constexpr double kMinHalfLength = 1e-4;
 constexpr int kMaxTiles = 512;
+/// Tiles of casters against those of other receivers: their surfaces turn away from the light within a tile,
+/// and their own silhouettes pass it. Measured at 27 spheres: half as many vertices a fragment at 1/4, a
+/// third less at 1/2, for twice and a half more list building.
+constexpr double kCasterTileShare = 0.5;
 
 /// What a list depends on besides the light's silhouettes.
 struct CachedReceiver {
@@ -145,7 +149,8 @@ Status WedgesCells::encode(const LightFrame& frame, LightLists& lists) {
         cached.revision = item.revision;
         cached.tiles = receiverTiles(
             {.mesh = item.sourceMesh, .worldFromObject = item.worldFromObject, .closed = item.closed},
-            lists.plane, lists.shadows, lists.tileSize, kMaxTiles, kMinHeight, lists.lift);
+            lists.plane, lists.shadows, (item.casts ? kCasterTileShare : 1.0) * lists.tileSize, kMaxTiles,
+            kMinHeight, lists.lift);
         cached.lists = cellLists(lists.subLights, cached.tiles);
         changed = true;
       }
