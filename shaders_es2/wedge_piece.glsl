@@ -10,7 +10,7 @@ varying HS_HIGHP vec4 v_pieceB1;
 varying HS_HIGHP vec4 v_pieceH0;
 varying HS_HIGHP vec4 v_pieceH1;
 varying HS_HIGHP vec3 v_pieceCenter;
-uniform HS_HIGHP vec4 u_pieceGrid;  // x: a step of a and b, y: of h; zw: 1 / these
+uniform HS_HIGHP vec4 u_pieceGrid;  // x: the unit of a and b, y: of h; zw: 1 / these
 
 // `w`, the height of the receiver above a vertex, must exceed HS_WEDGE_NEAR for the vertex to occlude. Receivers are
 // split in two by the heights where all vertices do, which is the rule.
@@ -18,13 +18,19 @@ uniform HS_HIGHP vec4 u_pieceGrid;  // x: a step of a and b, y: of h; zw: 1 / th
 #define HS_WEDGE_NEAR 2e-3
 #define HS_WEDGE_ALL_NEAR 4e-3
 #define HS_WEDGE_FLAT 1e-2
-// A projected position, kept where slopes and primitives do not overflow.
-#define HS_WEDGE_BOUND(x) clamp(x, -60.0, 60.0)
 #else
 #define HS_WEDGE_NEAR 1e-4
 #define HS_WEDGE_ALL_NEAR 1e-3
 #define HS_WEDGE_FLAT 1e-4
-#define HS_WEDGE_BOUND(x) (x)
+#endif
+
+#ifdef HS_NO_HIGHP
+// Keeps projected positions where slopes and primitives do not overflow, in their direction from the light's centre.
+void hs_bound(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y) {
+  HS_HIGHP vec4 scale = 60.0 / max(max(abs(x), abs(y)), 60.0);
+  x *= scale;
+  y *= scale;
+}
 #endif
 
 // Not mix(), which drivers may compute as a + s (b - a): b is then lost beside a large a.
@@ -89,13 +95,19 @@ HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 a0, HS_HIGHP vec4 a1, HS_HIGHP v
   HS_HIGHP vec4 t0 = (HS_WEDGE_NEAR - beforeW0) / hs_select(vec4(1.0), w0 - beforeW0, cut0);
   HS_HIGHP vec4 t1 = (HS_WEDGE_NEAR - beforeW1) / hs_select(vec4(1.0), w1 - beforeW1, cut1);
   HS_HIGHP float nearScale = scale / HS_WEDGE_NEAR;
-  HS_HIGHP vec4 cutX0 = HS_WEDGE_BOUND(mix(vec4(a1.w, a0.xyz), a0, t0) * nearScale + foot.x);
-  HS_HIGHP vec4 cutX1 = HS_WEDGE_BOUND(mix(vec4(a0.w, a1.xyz), a1, t1) * nearScale + foot.x);
-  HS_HIGHP vec4 cutY0 = HS_WEDGE_BOUND(mix(vec4(b1.w, b0.xyz), b0, t0) * nearScale + foot.y);
-  HS_HIGHP vec4 cutY1 = HS_WEDGE_BOUND(mix(vec4(b0.w, b1.xyz), b1, t1) * nearScale + foot.y);
+  HS_HIGHP vec4 cutX0 = mix(vec4(a1.w, a0.xyz), a0, t0) * nearScale + foot.x;
+  HS_HIGHP vec4 cutX1 = mix(vec4(a0.w, a1.xyz), a1, t1) * nearScale + foot.x;
+  HS_HIGHP vec4 cutY0 = mix(vec4(b1.w, b0.xyz), b0, t0) * nearScale + foot.y;
+  HS_HIGHP vec4 cutY1 = mix(vec4(b0.w, b1.xyz), b1, t1) * nearScale + foot.y;
   HS_HIGHP vec4 scale0 = scale / max(w0, HS_WEDGE_NEAR), scale1 = scale / max(w1, HS_WEDGE_NEAR);
-  HS_HIGHP vec4 x0 = HS_WEDGE_BOUND(a0 * scale0 + foot.x), x1 = HS_WEDGE_BOUND(a1 * scale1 + foot.x);
-  HS_HIGHP vec4 y0 = HS_WEDGE_BOUND(b0 * scale0 + foot.y), y1 = HS_WEDGE_BOUND(b1 * scale1 + foot.y);
+  HS_HIGHP vec4 x0 = a0 * scale0 + foot.x, x1 = a1 * scale1 + foot.x;
+  HS_HIGHP vec4 y0 = b0 * scale0 + foot.y, y1 = b1 * scale1 + foot.y;
+#ifdef HS_NO_HIGHP
+  hs_bound(x0, y0);
+  hs_bound(x1, y1);
+  hs_bound(cutX0, cutY0);
+  hs_bound(cutX1, cutY1);
+#endif
   // What is cut away before the first point that stays becomes that point: found by going backwards.
   HS_HIGHP vec2 last = hs_keepBackwards(vec2(0.0), x1, y1, in1, cutX1, cutY1, cut1);
   last = hs_keepBackwards(last, x0, y0, in0, cutX0, cutY0, cut0);
@@ -113,14 +125,23 @@ HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 a0, HS_HIGHP vec4 a1, HS_HIGHP v
 HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 a0, HS_HIGHP vec4 a1, HS_HIGHP vec4 b0, HS_HIGHP vec4 b1,
                                   HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale) {
   HS_HIGHP vec4 scale0 = scale / max(w0, HS_WEDGE_NEAR), scale1 = scale / max(w1, HS_WEDGE_NEAR);
-  HS_HIGHP vec4 x0 = HS_WEDGE_BOUND(a0 * scale0 + foot.x), x1 = HS_WEDGE_BOUND(a1 * scale1 + foot.x);
-  HS_HIGHP vec4 y0 = HS_WEDGE_BOUND(b0 * scale0 + foot.y), y1 = HS_WEDGE_BOUND(b1 * scale1 + foot.y);
+  HS_HIGHP vec4 x0 = a0 * scale0 + foot.x, x1 = a1 * scale1 + foot.x;
+  HS_HIGHP vec4 y0 = b0 * scale0 + foot.y, y1 = b1 * scale1 + foot.y;
+#ifdef HS_NO_HIGHP
+  hs_bound(x0, y0);
+  hs_bound(x1, y1);
+#endif
   return hs_edgeIntegrals(x0, y0, vec4(x0.yzw, x1.x), vec4(y0.yzw, y1.x)) +
          hs_edgeIntegrals(x1, y1, vec4(x1.yzw, x0.x), vec4(y1.yzw, y0.x));
 }
 #endif
 
-HS_HIGHP vec4 hs_whole(HS_HIGHP vec4 steps) { return floor(steps + 0.5); }
+// Without highp units are larger than steps, and mediump keeps fewer bits than interpolation spoils.
+#ifdef HS_NO_HIGHP
+HS_HIGHP vec4 hs_whole(HS_HIGHP vec4 units) { return units; }
+#else
+HS_HIGHP vec4 hs_whole(HS_HIGHP vec4 units) { return floor(units + 0.5); }
+#endif
 
 // Share of the light's square, signed by the way round; 0 where the other draw of the piece answers.
 HS_HIGHP float hs_pieceCoverage(HS_HIGHP vec3 receiver) {

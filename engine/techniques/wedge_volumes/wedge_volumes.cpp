@@ -33,6 +33,8 @@ constexpr std::array<std::uint16_t, kIndices> kBox = {0, 2, 3, 0, 3, 1, 4, 5, 7,
 
 /// A whole number of steps that a piece's centre is rounded to: wedge_piece.glsl.
 constexpr double kCenterSteps = 64.0;
+/// Steps of the grid that are one unit without highp: a thousand units hold every caster.
+constexpr double kStepsWithoutHighp = 128.0;
 
 struct Vertex {
   glm::vec3 corner;
@@ -89,16 +91,16 @@ glm::dvec2 highWithin(const WedgeExtent& extent, double h, double reach) {
           end.y > reach ? std::max(reach, extent.high(extent.nearest).y) : high.y};
 }
 
-std::vector<Vertex> vertexStream(const WedgePieces& pieces, double allNear, double reach) {
+std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& unit, double allNear,
+                                 double reach) {
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
-  const glm::dvec3 grid(pieces.stepAB, pieces.stepAB, pieces.stepH);
   for (const WedgePiece& piece : pieces.pieces) {
     Vertex vertex;
     const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
       const std::size_t index = piece.firstVertex + std::min<std::size_t>(i, piece.vertexCount - 1);
-      return glm::dvec3(pieces.vertices[index]) / grid;
+      return glm::dvec3(pieces.vertices[index]) / unit;
     };
     const glm::dvec3 center = glm::round(0.5 * (steps(0) + steps(piece.vertexCount / 2)) / kCenterSteps);
     vertex.center = center;
@@ -216,15 +218,20 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   for (std::uint32_t i = 0; i < frame.casters.size(); ++i) {
     casters.push_back({.mesh = &frame.casters[i].halfEdges(),
                        .worldFromObject = frame.casters[i].worldFromObject,
-                       .object = i});
+                       .object = i,
+                       .revision = frame.casters[i].revision});
   }
-  scene::LightSilhouettes silhouettes;
-  scene::lightSilhouettes(casters, volumes.plane, 0.0, 0.0, kMinHeight, silhouettes);
+  // What a caster covers at all counts once, however often it covers it.
+  const scene::LightSilhouettes& silhouettes =
+      volumes.silhouettes.update(casters, volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
   if (!volumes.pieces.pieces.empty()) {
     const bool highp = frame.capabilities.has(gl::Capability::highp);
+    const WedgePieces& pieces = volumes.pieces;
+    volumes.unit =
+        glm::dvec3(pieces.stepAB, pieces.stepAB, pieces.stepH) * (highp ? 1.0 : kStepsWithoutHighp);
     const std::vector<Vertex> stream =
-        vertexStream(volumes.pieces, highp ? kAllNear : kAllNearWithoutHighp, reach);
+        vertexStream(pieces, volumes.unit, highp ? kAllNear : kAllNearWithoutHighp, reach);
     if (Status s = upload(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                           std::as_bytes(std::span(stream)));
         !s) {
@@ -247,8 +254,8 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
                                   glm::dvec4(alongNormal, 0), glm::dvec4(plane.centerWorld, 1));
   program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
-  const double ab = volumes.pieces.stepAB, h = volumes.pieces.stepH;
-  program.set(encoder.context(), "u_pieceGrid", glm::vec4(ab, h, 1.0 / ab, 1.0 / h));
+  const glm::dvec3& unit = volumes.unit;
+  program.set(encoder.context(), "u_pieceGrid", glm::vec4(unit.x, unit.z, 1.0 / unit.x, 1.0 / unit.z));
   const auto hull = eyeHull(view, plane);
   if (part == WedgePart::beside) {
     // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject

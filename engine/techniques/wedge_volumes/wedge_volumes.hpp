@@ -16,7 +16,9 @@ struct WedgeVolumes {
   std::uint64_t contentKey = 0;
   scene::LightPlane plane;
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
+  scene::LightSilhouetteCache silhouettes;
   WedgePieces pieces;
+  glm::dvec3 unit{1.0};  ///< of a, b and h in the vertex stream: the grid's steps where fragments have highp
   gl::Buffer vertices, indices;
 };
 
