@@ -46,6 +46,18 @@ T trapezoid(const FlatPoint<T>& p0, const FlatPoint<T>& p1, const Cell<T>& cell)
   return height * meanClamped(from, to);
 }
 
+/// Mean of clamp(x, 0, 1)² / 2 while x runs evenly from x0 to x1: the integral of x over what lies left of an
+/// edge.
+template <typename T>
+T meanClampedMoment(T x0, T x1) {
+  const T inside0 = clamped(x0, T(0), T(1)), inside1 = clamped(x1, T(0), T(1));
+  const T run = x1 - x0;
+  if ((inside0 == x0 && inside1 == x1) || absolute(run) < smallestDivisor<T>())
+    return (inside0 * inside0 + inside0 * inside1 + inside1 * inside1) / T(6);
+  const auto primitive = [](T x, T c) { return c * c * (c / T(6) + (x - c) / T(2)); };
+  return clamped((primitive(x1, inside1) - primitive(x0, inside0)) / run, T(0), T(0.5));
+}
+
 /// Share of `cell` inside the counter-clockwise loop (minus it, when clockwise), each point counted as often
 /// as the loop winds around it.
 template <typename T>

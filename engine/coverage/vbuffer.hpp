@@ -37,6 +37,7 @@ template <typename T>
 struct QuadrantOcclusion {
   T share = T(0);
   Bounds<T> bounds;
+  T centreU = T(0.5), centreV = T(0.5);  ///< centre of gravity of what is occluded
 };
 
 /// Sums over the edges of one caster, all order-independent.
@@ -96,22 +97,78 @@ QuadrantOcclusion<T> resolved(const QuadrantSums<T>& sums, T centreOccluded) {
   // Rounding cannot matter: where no edge crosses the side the length is 0 or 1.
   if (centreOccluded - sums.takenRight > T(0.5)) result.bounds.right = T(1);
   if (centreOccluded - sums.takenTop > T(0.5)) result.bounds.top = T(1);
+  const T whole = centreOccluded / T(2), divisor = larger(result.share, T(1e-4));
+  result.centreU =
+      clamped((whole - sums.takenMomentU) / divisor, result.bounds.left, larger(result.bounds.right, T(0)));
+  result.centreV =
+      clamped((whole - sums.takenMomentV) / divisor, result.bounds.bottom, larger(result.bounds.top, T(0)));
   return result;
 }
 
-/// Two casters' parts of a quadrant: the areas added, less an estimate of what both occlude. Each is taken to
-/// be spread evenly over its bounds, never denser than solid.
+/// How what is occluded is spread along one side of its bounds: a density that rises evenly from end to end,
+/// with mean 1 and the centre of gravity where it is. From (at middle - 1) to (at middle + 1) it runs from
+/// 1 - slope to 1 + slope; beyond a third of the half side it would become negative.
 template <typename T>
-QuadrantOcclusion<T> mergedQuadrant(const QuadrantOcclusion<T>& a, const QuadrantOcclusion<T>& b) {
+struct Spread {
+  T middle, half, slope;
+};
+template <typename T>
+Spread<T> spreadAlong(T low, T high, T centre) {
+  const T half = larger((high - low) / T(2), T(1e-3));
+  const T middle = (low + high) / T(2);
+  return {middle, half, clamped(T(3) * (centre - middle) / half, T(-1), T(1))};
+}
+/// Integral over [low, high] of the product of two spreads, exactly (Simpson's rule of a parabola).
+template <typename T>
+T commonSpread(const Spread<T>& a, const Spread<T>& b, T low, T high) {
+  if (!(low < high)) return T(0);
+  const auto at = [&](T x) {
+    return (T(1) + a.slope * (x - a.middle) / a.half) * (T(1) + b.slope * (x - b.middle) / b.half);
+  };
+  return (high - low) * (at(low) + T(4) * at((low + high) / T(2)) + at(high)) / T(6);
+}
+
+enum class Centres {
+  ignored,  ///< the paper's method
+  used      ///< its future work: centres of gravity
+};
+
+/// Two casters' parts of a quadrant: the areas added, less an estimate of what both occlude. Each is taken to
+/// be spread over its bounds, never denser than solid: evenly, or rising evenly towards its centre of
+/// gravity.
+template <typename T>
+QuadrantOcclusion<T> mergedQuadrant(const QuadrantOcclusion<T>& a, const QuadrantOcclusion<T>& b,
+                                    Centres centres = Centres::ignored) {
   QuadrantOcclusion<T> result;
   result.bounds = a.bounds;
   result.bounds.include(b.bounds);
   const T tiny = smallestDivisor<T>();
   const T densityA = smaller(T(1), a.share / larger(a.bounds.area(), tiny));
   const T densityB = smaller(T(1), b.share / larger(b.bounds.area(), tiny));
-  const T overlap = densityA * densityB * intersection(a.bounds, b.bounds).area();
+  const Bounds<T> common = intersection(a.bounds, b.bounds);
+  T area = common.area();
+  if (centres == Centres::used) {
+    const Bounds<T>&p = a.bounds, &q = b.bounds;
+    const T spread = commonSpread(spreadAlong(p.left, p.right, a.centreU),
+                                  spreadAlong(q.left, q.right, b.centreU), common.left, common.right) *
+                     commonSpread(spreadAlong(p.bottom, p.top, a.centreV),
+                                  spreadAlong(q.bottom, q.top, b.centreV), common.bottom, common.top);
+    area = smaller(area, spread);
+  }
+  const T overlap = densityA * densityB * area;
   const T sum = a.share + b.share;
   result.share = clamped(sum - overlap, larger(a.share, b.share), smaller(T(1), sum));
+  if (centres == Centres::used) {
+    // What both occlude lies somewhere in the common rectangle: its middle, taken out once.
+    const T twice = sum - result.share, divisor = larger(result.share, tiny);
+    const auto centre = [&](T centreA, T centreB, T low, T high, T from, T to) {
+      const T moment = a.share * centreA + b.share * centreB - twice * (low + high) / T(2);
+      return clamped(moment / divisor, from, larger(from, to));
+    };
+    const Bounds<T>& r = result.bounds;
+    result.centreU = centre(a.centreU, b.centreU, common.left, common.right, r.left, r.right);
+    result.centreV = centre(a.centreV, b.centreV, common.bottom, common.top, r.bottom, r.top);
+  }
   return result;
 }
 
@@ -142,7 +199,7 @@ Bounds<T> storedBounds(const Bounds<T>& b) {
 }
 template <typename T>
 QuadrantOcclusion<T> stored(const QuadrantOcclusion<T>& q) {
-  return {storedNearest(q.share), storedBounds(q.bounds)};
+  return {storedNearest(q.share), storedBounds(q.bounds), storedNearest(q.centreU), storedNearest(q.centreV)};
 }
 
 }  // namespace halfshadow::coverage

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// What one caster occludes of each quadrant of the light: share, bounding rectangle, centre of gravity; added up
+// over the edges of its projected loops, in any order. Quadrants: lower left, lower right, upper left, upper
+// right, each with its own lower left corner at (0, 0) and its upper right corner at (1, 1).
+// Based on: Forest, Barthe, Paulin, "Realistic Soft Shadows by Penumbra-Wedges Blending", 2006, section 4.3,
+// with areas integrated along the light's axes instead of around its centre: no light-centre bit, no repair.
+#ifdef HS_NO_HIGHP
+#define HS_LEVEL 2e-3
+#define HS_SHORT 0.03
+#else
+#define HS_LEVEL 1e-6
+#define HS_SHORT 2e-3
+#endif
+struct HS_Sums {
+  HS_HIGHP vec4 share;
+  HS_HIGHP vec4 reachX;  // largest x and -x of the edges in the lower half, then in the upper half
+  HS_HIGHP vec4 reachY;  // largest y and -y in the left half, then in the right half
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 momentX, momentY;  // integrals of x and y over what is occluded
+#endif
+};
+struct HS_Occlusion {
+  HS_HIGHP vec4 share;
+  HS_HIGHP vec4 left, right, bottom, top;
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 centreX, centreY;
+#endif
+};
+
+void hs_clearSums(out HS_Sums sums) {
+  sums.share = vec4(0.0);
+  sums.reachX = sums.reachY = vec4(-2.0);
+#ifdef HS_CENTRES
+  sums.momentX = sums.momentY = vec4(0.0);
+#endif
+}
+
+// Means of c = clamp(x, 0, 1) and of c² / 2 while x runs evenly from x0 to x1. Short runs and runs outside
+// take the middle: there the quotient would cancel.
+#ifdef HS_CENTRES
+void hs_clampedMeans(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, out HS_HIGHP vec4 mean, out HS_HIGHP vec4 moment) {
+#else
+void hs_clampedMeans(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, out HS_HIGHP vec4 mean) {
+#endif
+  HS_HIGHP vec4 c0 = clamp(x0, 0.0, 1.0), c1 = clamp(x1, 0.0, 1.0);
+  HS_HIGHP vec4 run = x1 - x0, change = c1 - c0, middle = 0.5 * (c0 + c1);
+  HS_HIGHP vec4 isShort = max(step(abs(run), vec4(HS_SHORT)), step(abs(change), vec4(1e-6)));
+  HS_HIGHP vec4 inverse = 1.0 / mix(run, vec4(1.0), isShort);
+  HS_HIGHP vec4 past0 = (x0 - c0) * c0, past1 = (x1 - c1) * c1;
+  mean = mix((middle * change + past1 - past0) * inverse, middle, isShort);
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 squares = (c0 * c0 + c0 * c1 + c1 * c1) * (1.0 / 6.0);
+  moment = mix((squares * change + 0.5 * (past1 * c1 - past0 * c0)) * inverse, squares, isShort);
+#endif
+}
+
+// Largest and negated smallest of the ends of two parts, where `length` says that there is a part.
+HS_HIGHP vec4 hs_reach(HS_HIGHP vec4 ends, HS_HIGHP vec2 length) {
+  HS_HIGHP vec4 reach = vec4(max(ends.xz, ends.yw), -min(ends.xz, ends.yw)).xzyw;
+  return mix(vec4(-2.0), reach, step(vec4(1e-6), abs(length.xxyy)));
+}
+
+void hs_addEdge(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
+  const vec4 low = vec4(-1.0, -1.0, 0.0, 0.0), high = vec4(0.0, 0.0, 1.0, 1.0);
+  HS_HIGHP vec2 edge = b - a;
+  edge = mix(vec2(HS_LEVEL), edge, step(vec2(HS_LEVEL), abs(edge)));
+  // From the nearer end: the other may be very far away.
+  HS_HIGHP vec2 near = dot(abs(a), vec2(1.0)) < dot(abs(b), vec2(1.0)) ? a : b;
+
+  HS_HIGHP vec4 y = clamp(vec4(a.y, b.y, a.y, b.y), low, high);
+  HS_HIGHP vec4 x = near.x + (y - near.y) * (edge.x / edge.y);
+  HS_HIGHP vec2 rows = y.yw - y.xz;
+  HS_HIGHP vec4 mean;
+  const vec4 right = vec4(1.0, 0.0, 1.0, 0.0), up = vec4(1.0, 1.0, 0.0, 0.0);
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 moment;
+  hs_clampedMeans(x.xxzz + right, x.yyww + right, mean, moment);
+  sums.momentX += rows.xxyy * moment;
+#else
+  hs_clampedMeans(x.xxzz + right, x.yyww + right, mean);
+#endif
+  sums.share += rows.xxyy * mean;
+  sums.reachX = max(sums.reachX, hs_reach(x, rows));
+
+  x = clamp(vec4(a.x, b.x, a.x, b.x), low, high);
+  y = near.y + (x - near.x) * (edge.y / edge.x);
+  HS_HIGHP vec2 columns = x.yw - x.xz;
+#ifdef HS_CENTRES
+  hs_clampedMeans(y.xzxz + up, y.ywyw + up, mean, moment);
+  sums.momentY -= columns.xyxy * moment;
+#endif
+  sums.reachY = max(sums.reachY, hs_reach(y, columns));
+}
+
+HS_Occlusion hs_occlusion(HS_Sums sums) {
+  const vec4 right = vec4(1.0, 0.0, 1.0, 0.0), up = vec4(1.0, 1.0, 0.0, 0.0);
+  HS_Occlusion q;
+  q.share = clamp(sums.share, 0.0, 1.0);
+  q.left = clamp(right - sums.reachX.yyww, 0.0, 1.0);
+  q.right = clamp(right + sums.reachX.xxzz, 0.0, 1.0);
+  q.bottom = clamp(up - sums.reachY.ywyw, 0.0, 1.0);
+  q.top = clamp(up + sums.reachY.xzxz, 0.0, 1.0);
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 divisor = max(q.share, 1e-3);
+  q.centreX = clamp(sums.momentX / divisor, q.left, max(q.left, q.right));
+  q.centreY = clamp(sums.momentY / divisor, q.bottom, max(q.bottom, q.top));
+#endif
+  return q;
+}
