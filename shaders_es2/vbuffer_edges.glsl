@@ -8,9 +8,11 @@
 #ifdef HS_NO_HIGHP
 #define HS_LEVEL 2e-3
 #define HS_SHORT 0.03
+#define HS_NOTHING 4e-3
 #else
 #define HS_LEVEL 1e-6
 #define HS_SHORT 2e-3
+#define HS_NOTHING 1e-4
 #endif
 struct HS_Sums {
   HS_HIGHP vec4 share;
@@ -27,6 +29,16 @@ struct HS_Occlusion {
   HS_HIGHP vec4 centreX, centreY;
 #endif
 };
+
+HS_Occlusion hs_nothing() {
+  HS_Occlusion q;
+  q.share = q.right = q.top = vec4(0.0);
+  q.left = q.bottom = vec4(1.0);
+#ifdef HS_CENTRES
+  q.centreX = q.centreY = vec4(0.5);
+#endif
+  return q;
+}
 
 void hs_clearSums(out HS_Sums sums) {
   sums.share = vec4(0.0);
@@ -93,14 +105,52 @@ void hs_addEdge(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
   sums.reachY = max(sums.reachY, hs_reach(y, columns));
 }
 
+#ifdef HS_CASTING_RECEIVER
+// The same for a chord between two points far outside the light, which passes it on one side.
+void hs_addFarChord(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
+  const vec2 low = vec2(-1.0, 0.0), high = vec2(0.0, 1.0);
+  HS_HIGHP vec2 edge = b - a;
+  edge = mix(vec2(HS_LEVEL), edge, step(vec2(HS_LEVEL), abs(edge)));
+  // Where it meets the axes: on the right of the light or not, above it or not.
+  HS_HIGHP vec2 sides = step(vec2(0.0), a - a.yx * edge / edge.yx);
+  HS_HIGHP vec2 rows = clamp(b.yy, low, high) - clamp(a.yy, low, high);
+  HS_HIGHP vec2 columns = clamp(b.xx, low, high) - clamp(a.xx, low, high);
+  sums.share += sides.x * rows.xxyy;
+#ifdef HS_CENTRES
+  sums.momentX += 0.5 * sides.x * rows.xxyy;
+  sums.momentY -= 0.5 * sides.y * columns.xyxy;
+#endif
+  HS_HIGHP vec4 ends = 4.0 * sides.xxyy - 2.0;
+  sums.reachX = max(sums.reachX, hs_reach(ends.xxxx, rows));
+  sums.reachY = max(sums.reachY, hs_reach(ends.zzzz, columns));
+}
+#endif
+
+// The same for the whole light, and only the share.
+HS_HIGHP float hs_edgeShare(HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
+  HS_HIGHP vec2 edge = b - a;
+  HS_HIGHP float slope = edge.x / (abs(edge.y) < HS_LEVEL ? HS_LEVEL : edge.y);
+  HS_HIGHP vec2 near = dot(abs(a), vec2(1.0)) < dot(abs(b), vec2(1.0)) ? a : b;
+  HS_HIGHP vec2 y = clamp(vec2(a.y, b.y), -1.0, 1.0);
+  HS_HIGHP vec2 x = near.x + (y - near.y) * slope;
+  HS_HIGHP vec2 c = clamp(x, -1.0, 1.0);
+  HS_HIGHP vec2 past = (x - c) * c;
+  HS_HIGHP float run = x.y - x.x, change = c.y - c.x, middle = 0.5 * (c.x + c.y);
+  bool isShort = abs(run) < HS_SHORT || abs(change) < 1e-6;
+  HS_HIGHP float mean = isShort ? middle : (middle * change + past.y - past.x) / run;
+  return 0.25 * (y.y - y.x) * mean;
+}
+
 HS_Occlusion hs_occlusion(HS_Sums sums) {
   const vec4 right = vec4(1.0, 0.0, 1.0, 0.0), up = vec4(1.0, 1.0, 0.0, 0.0);
   HS_Occlusion q;
   q.share = clamp(sums.share, 0.0, 1.0);
-  q.left = clamp(right - sums.reachX.yyww, 0.0, 1.0);
-  q.right = clamp(right + sums.reachX.xxzz, 0.0, 1.0);
-  q.bottom = clamp(up - sums.reachY.ywyw, 0.0, 1.0);
-  q.top = clamp(up + sums.reachY.xzxz, 0.0, 1.0);
+  // What misses a quadrant must not widen its rectangle: it becomes empty, from 1 to 0.
+  HS_HIGHP vec4 some = step(HS_NOTHING, q.share);
+  q.left = max(clamp(right - sums.reachX.yyww, 0.0, 1.0), 1.0 - some);
+  q.right = some * clamp(right + sums.reachX.xxzz, 0.0, 1.0);
+  q.bottom = max(clamp(up - sums.reachY.ywyw, 0.0, 1.0), 1.0 - some);
+  q.top = some * clamp(up + sums.reachY.xzxz, 0.0, 1.0);
 #ifdef HS_CENTRES
   HS_HIGHP vec4 divisor = max(q.share, 1e-3);
   q.centreX = clamp(sums.momentX / divisor, q.left, max(q.left, q.right));

@@ -33,10 +33,14 @@ HS_HIGHP vec4 hs_overlap(HS_Occlusion a, HS_Occlusion b) {
   HS_HIGHP vec4 bottom = max(a.bottom, b.bottom), top = min(a.top, b.top);
   HS_HIGHP vec4 area = max(right - left, 0.0) * max(top - bottom, 0.0);
 #ifdef HS_CENTRES
-  area = min(area, hs_commonSpread(left, right, a.left, a.right, a.centreX, b.left, b.right, b.centreX) *
-                       hs_commonSpread(bottom, top, a.bottom, a.top, a.centreY, b.bottom, b.top, b.centreY));
-#endif
+  // Where both concentrate, more than evenly spread; never more than the rectangle.
+  HS_HIGHP vec4 spread =
+      hs_commonSpread(left, right, a.left, a.right, a.centreX, b.left, b.right, b.centreX) *
+      hs_commonSpread(bottom, top, a.bottom, a.top, a.centreY, b.bottom, b.top, b.centreY);
+  return min(hs_density(a) * hs_density(b) * spread, area);
+#else
   return hs_density(a) * hs_density(b) * area;
+#endif
 }
 
 HS_Occlusion hs_merge(HS_Occlusion a, HS_Occlusion b) {

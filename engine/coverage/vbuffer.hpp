@@ -146,16 +146,16 @@ QuadrantOcclusion<T> mergedQuadrant(const QuadrantOcclusion<T>& a, const Quadran
   const T densityA = smaller(T(1), a.share / larger(a.bounds.area(), tiny));
   const T densityB = smaller(T(1), b.share / larger(b.bounds.area(), tiny));
   const Bounds<T> common = intersection(a.bounds, b.bounds);
-  T area = common.area();
+  T overlap = densityA * densityB * common.area();
   if (centres == Centres::used) {
     const Bounds<T>&p = a.bounds, &q = b.bounds;
     const T spread = commonSpread(spreadAlong(p.left, p.right, a.centreU),
                                   spreadAlong(q.left, q.right, b.centreU), common.left, common.right) *
                      commonSpread(spreadAlong(p.bottom, p.top, a.centreV),
                                   spreadAlong(q.bottom, q.top, b.centreV), common.bottom, common.top);
-    area = smaller(area, spread);
+    // Where both concentrate, more than evenly spread; never more than the rectangle.
+    overlap = smaller(densityA * densityB * spread, common.area());
   }
-  const T overlap = densityA * densityB * area;
   const T sum = a.share + b.share;
   result.share = clamped(sum - overlap, larger(a.share, b.share), smaller(T(1), sum));
   if (centres == Centres::used) {

@@ -9,7 +9,7 @@
 
 #include "coverage/trapezoid.hpp"
 #include "scenes/builtin_scenes.hpp"
-#include "techniques/wedges_cells/cell_lists.hpp"
+#include "techniques/caster_lists/cell_lists.hpp"
 
 namespace halfshadow::techniques {
 namespace {

@@ -14,6 +14,7 @@
 #include "techniques/shadow_width/shadow_width.hpp"
 #include "techniques/vsm/vsm.hpp"
 #include "techniques/wedges/wedges.hpp"
+#include "techniques/wedges_blended/wedges_blended.hpp"
 #include "techniques/wedges_cells/wedges_cells.hpp"
 
 namespace halfshadow::techniques {
@@ -22,7 +23,7 @@ std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
   std::vector<std::unique_ptr<Technique>> techniques;
   for (const auto make : {makeNone, makeHard, makePcf, makePcfMasked, makePcfQuantized, makePcss, makePcssMip,
                           makeVsm, makeOcclusionTextures, makeShadowWidth, makeShadowVolume, makeWedges,
-                          makeWedgesProbabilistic, makeWedgesCells, makeSampled}) {
+                          makeWedgesProbabilistic, makeWedgesBlended, makeWedgesCells, makeSampled}) {
     techniques.push_back(make());
   }
   return techniques;

@@ -78,6 +78,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       receiver("wedges_cells.frag", {kMapReceiver, kTwoDraws, {"HS_CELLS", "HS_CASTING_RECEIVER"}}),
       receiver("screen_counts.frag", {}),
       receiver("screen_visibility.frag", {}),
+      receiver("wedges_blended.frag", {kMapReceiver, kTwoDraws, {"HS_CENTRES", "HS_CASTING_RECEIVER"}}),
       receiver("screen_wedges.frag", {{"HS_WEDGE_SUMS"}}),
       receiver("shade_lights.frag", {}),
   };

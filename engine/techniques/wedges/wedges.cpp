@@ -2,81 +2,13 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
-#include "techniques/wedge_volumes/wedge_volumes.hpp"
+#include "techniques/wedge_volumes/wedge_passes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-using framegraph::Attachment;
 using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
-
-/// Steps of full coverage. Sums over all casters hold up to 8 full coverings, those of one caster 4, each
-/// way; a piece is rounded to a step.
-constexpr float kStepsOfAll = 512.0f, kStepsOfOne = 1024.0f;
-
-ReceiverShading screenShading(ResourceId image, float steps) {
-  ReceiverShading shading;
-  shading.fragmentFile = "screen_wedges.frag";
-  shading.forward = false;
-  shading.textures = {{.sampler = "u_wedges", .resource = image}};
-  if (steps > 0.0f) shading.defines.push_back("HS_WEDGE_SUMS");
-  shading.setUniforms = [steps](gl::Program& program, gl::Context& context) {
-    program.set(context, "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
-  };
-  return shading;
-}
-
-ResourceId screenImage(const LightFrame& frame, const std::string& name) {
-  return frame.graph.addResource({.name = "light " + std::to_string(frame.lightIndex) + " " + name,
-                                  .width = frame.view.width,
-                                  .height = frame.view.height});
-}
-
-std::vector<Attachment> targets(ResourceId color, const ReceiverDepth& depth, InitialContent initial,
-                                float clear) {
-  return {{.resource = color,
-           .point = AttachmentPoint::color,
-           .initial = initial,
-           .clear = {.color = {clear, clear, clear, clear}}},
-          {.resource = depth.depthTest, .point = AttachmentPoint::depth, .initial = InitialContent::keep}};
-}
-
-constexpr gl::BlendState kAdd{
-    .enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
-constexpr gl::BlendState kMultiply{
-    .enabled = true, .source = gl::BlendFactor::zero, .destination = gl::BlendFactor::srcColor};
-
-/// What the passes of one light share.
-struct Wedges {
-  const WedgeVolumes* volumes = nullptr;
-  ReceiverDepth depth;
-};
-struct PiecePrograms {
-  gl::Program* beside = nullptr;
-  gl::Program* beyond = nullptr;
-};
-Result<PiecePrograms> piecePrograms(const LightFrame& frame, std::vector<std::string> defines) {
-  PiecePrograms programs;
-  for (gl::Program** program : {&programs.beyond, &programs.beside}) {
-    auto linked = frame.programs.get({"wedge_volume.vert", "wedge_piece.frag", defines});
-    if (!linked) return linked.error();
-    *program = *linked;
-    defines.push_back("HS_WEDGE_CLIP");
-  }
-  return programs;
-}
-
-void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs, const Wedges& wedges,
-                const View& view, std::span<const CasterRange> casters, const gl::BlendState& blend,
-                float steps) {
-  for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
-    gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
-    context.encoder.useProgram(program);
-    program.set(context.encoder.context(), "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
-    drawWedgeVolumes(context, program, *wedges.volumes, wedges.depth, view, casters, part, {.blend = blend});
-  }
-}
 
 /// Shared by both: wedges that live on between frames.
 class WedgeTechnique : public Technique {
@@ -90,9 +22,6 @@ class WedgeTechnique : public Technique {
     auto depth = declareReceiverDepth(frame);
     if (!depth) return depth.error();
     return Wedges{*volumes, *depth};
-  }
-  static std::string passName(const LightFrame& frame, const std::string& what) {
-    return "light " + std::to_string(frame.lightIndex) + " " + what;
   }
 
  private:
@@ -115,20 +44,7 @@ class AdditiveWedges final : public WedgeTechnique {
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto wedges = wedgesOf(frame);
     if (!wedges) return wedges.error();
-    auto programs = piecePrograms(frame, {});
-    if (!programs) return programs.error();
-    const ResourceId sums = screenImage(frame, "wedge sums");
-    framegraph::PassDesc pass{.name = passName(frame, "wedges"),
-                              .stage = framegraph::PassStage::receiverPrepass,
-                              .reads = {wedges->depth.packed},
-                              .writes = targets(sums, wedges->depth, InitialContent::clear, 0.0f)};
-    pass.execute = [programs = *programs, wedges = *wedges,
-                    &view = frame.view](framegraph::PassContext& context) {
-      const CasterRange all{0, static_cast<std::uint32_t>(wedges.volumes->pieces.casters.size())};
-      addVolumes(context, programs, wedges, view, {&all, 1}, kAdd, kStepsOfAll);
-    };
-    frame.graph.addPass(std::move(pass));
-    return screenShading(sums, kStepsOfAll);
+    return declareAdditiveWedges(frame, *wedges);
   }
 };
 
@@ -177,10 +93,10 @@ class ProbabilisticWedges final : public WedgeTechnique {
   static Status declareWholeCasters(const LightFrame& frame, const Wedges& wedges, ResourceId visibility) {
     auto programs = piecePrograms(frame, {"HS_WEDGE_MULTIPLY"});
     if (!programs) return programs.error();
-    framegraph::PassDesc pass{.name = passName(frame, "wedges of whole casters"),
+    framegraph::PassDesc pass{.name = wedgePassName(frame, "wedges of whole casters"),
                               .stage = framegraph::PassStage::receiverPrepass,
                               .reads = {wedges.depth.packed},
-                              .writes = targets(visibility, wedges.depth, InitialContent::clear, 1.0f)};
+                              .writes = wedgeTargets(visibility, wedges.depth, InitialContent::clear, 1.0f)};
     pass.execute = [programs = *programs, wedges, &view = frame.view,
                     casters = castersWhere(wedges.volumes->pieces, [](const WedgeCaster& caster) {
                       return caster.pieceCount == 1;
@@ -198,10 +114,10 @@ class ProbabilisticWedges final : public WedgeTechnique {
     auto merge = frame.programs.get({"fullscreen.vert", "wedge_merge.frag", {}});
     if (!merge) return merge.error();
     const std::string number = std::to_string(batch);
-    framegraph::PassDesc add{.name = passName(frame, "wedges of batch " + number),
+    framegraph::PassDesc add{.name = wedgePassName(frame, "wedges of batch " + number),
                              .stage = framegraph::PassStage::receiverPrepass,
                              .reads = {wedges.depth.packed},
-                             .writes = targets(sums, wedges.depth, InitialContent::clear, 0.0f)};
+                             .writes = wedgeTargets(sums, wedges.depth, InitialContent::clear, 0.0f)};
     if (batch > 0) add.rebindReason = "casters of different batches may shadow the same receiver";
     add.execute = [programs = *programs, wedges, &view = frame.view,
                    casters = castersWhere(wedges.volumes->pieces, [batch](const WedgeCaster& caster) {
@@ -211,7 +127,7 @@ class ProbabilisticWedges final : public WedgeTechnique {
     };
     frame.graph.addPass(std::move(add));
 
-    framegraph::PassDesc multiply{.name = passName(frame, "visibility of batch " + number),
+    framegraph::PassDesc multiply{.name = wedgePassName(frame, "visibility of batch " + number),
                                   .stage = framegraph::PassStage::receiverPrepass,
                                   .reads = {sums}};
     multiply.writes = {

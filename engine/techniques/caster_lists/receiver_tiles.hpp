@@ -11,7 +11,7 @@
 
 #include "scene/light_silhouettes.hpp"
 #include "scene/mesh.hpp"
-#include "techniques/wedges_cells/tangent_space.hpp"
+#include "techniques/caster_lists/tangent_space.hpp"
 
 namespace halfshadow::techniques {
 

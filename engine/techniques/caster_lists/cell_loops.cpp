@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/wedges_cells/cell_loops.hpp"
+#include "techniques/caster_lists/cell_loops.hpp"
 
 #include <algorithm>
 #include <cmath>

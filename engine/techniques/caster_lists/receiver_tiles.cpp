@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/wedges_cells/receiver_tiles.hpp"
+#include "techniques/caster_lists/receiver_tiles.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "scene/light_silhouettes.hpp"
-#include "techniques/wedges_cells/tangent_space.hpp"
+#include "techniques/caster_lists/tangent_space.hpp"
 
 namespace halfshadow::techniques {
 

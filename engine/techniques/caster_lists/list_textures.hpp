@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "techniques/wedges_cells/cell_lists.hpp"
+#include "techniques/caster_lists/cell_lists.hpp"
 
 namespace halfshadow::techniques {
 
@@ -24,7 +24,7 @@ struct ListImage {
 
 /// A tile's texel: record column, record row (low, high byte), sub-lights that nothing covers + 16 where
 /// there is a list. A record's texels: t.x and t.y in two bytes each, high first; then i, tag, scale: the
-/// vertex is center + (value - 32768) · scale · step. The tag is in wedges_cells.frag.
+/// vertex is center + (value - 32768) · scale · step. The tag is in caster_lists.glsl.
 struct EncodedLists {
   ListImage tiles, records;
   std::vector<glm::ivec2> firstTexel;  ///< of each receiver's tiles

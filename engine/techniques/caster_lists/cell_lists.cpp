@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/wedges_cells/cell_lists.hpp"
+#include "techniques/caster_lists/cell_lists.hpp"
 
 #include <algorithm>
 
@@ -19,9 +19,9 @@ struct BlockCasters {
 /// Appends what the fragments walk. Where all receivers lie behind the whole caster, edges that cover nothing
 /// are left out; elsewhere fragments cut loops at their own height and need them whole.
 void appendCaster(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
-                  std::uint8_t subLight, std::vector<CellRecord>& records) {
+                  std::uint8_t subLight, ListedEdges edges, std::vector<CellRecord>& records) {
   const std::size_t before = records.size();
-  const bool whole = caster.low.z < receivers.iHigh;
+  const bool whole = edges == ListedEdges::all || caster.low.z < receivers.iHigh;
   const OuterSides sides(light, receivers);
   for (const CasterLoops::Loop& loop : caster.loops) {
     const auto at = [&](std::uint32_t k) { return caster.points[loop.first + k % loop.count]; };
@@ -84,7 +84,7 @@ void simplifyAll(const SubLightLoops& loops, const TangentBox& receivers, BlockC
 }
 
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
-                  const TangentBox& receivers, std::vector<CellRecord>& records) {
+                  const TangentBox& receivers, ListedEdges edges, std::vector<CellRecord>& records) {
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
   thread_local CasterLoops simplified;
   for (std::size_t s = 0; s < subLights.size(); ++s) {
@@ -94,7 +94,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       const Coverage coverage = simplify(block[s].partial[c], subLights[s].light, receivers, simplified);
       full = coverage == Coverage::full;
       if (coverage == Coverage::partial) {
-        appendCaster(simplified, subLights[s].light, receivers, static_cast<std::uint8_t>(s), records);
+        appendCaster(simplified, subLights[s].light, receivers, static_cast<std::uint8_t>(s), edges, records);
+        if (list.casters < 255) ++list.casters;
       }
     }
     if (full) {
@@ -111,7 +112,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
 }
 }  // namespace
 
-CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles) {
+CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles, ListedEdges edges) {
   CellLists lists;
   lists.tiles.resize(tiles.boxes.size());
   std::vector<BlockCasters> block(subLights.size());
@@ -129,7 +130,7 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTile
             lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
             continue;
           }
-          lists.tiles[tile] = tileList(subLights, block, tiles.boxes[tile], lists.records);
+          lists.tiles[tile] = tileList(subLights, block, tiles.boxes[tile], edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

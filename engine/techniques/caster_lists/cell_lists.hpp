@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Lists of silhouette vertices per tile of a receiver, as the fragment shader of wedges-cells reads them.
+/// Lists of silhouette vertices per tile of a receiver, as fragment shaders walk them.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-#include "techniques/wedges_cells/cell_loops.hpp"
-#include "techniques/wedges_cells/receiver_tiles.hpp"
+#include "techniques/caster_lists/cell_loops.hpp"
+#include "techniques/caster_lists/receiver_tiles.hpp"
 
 namespace halfshadow::techniques {
 
@@ -26,6 +26,7 @@ struct CellRecord {
 
 struct TileList {
   std::uint32_t first = 0, count = 0;  ///< in CellLists::records
+  std::uint8_t casters = 0;            ///< in the list; 255 = that many or more
   std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
 };
 
@@ -36,8 +37,14 @@ struct CellLists {
   std::size_t partialTiles = 0;  ///< tiles with a list
 };
 
-/// `subLights`: one for each quarter of the light.
-CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles);
+/// Which edges of a simplified loop are listed.
+enum class ListedEdges {
+  covering,  ///< those that can cover part of a cell: enough for areas
+  all        ///< whole loops: rectangles around what they cover need every side
+};
+
+/// `subLights`: one for each quarter of the light, or one for all of it.
+CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles, ListedEdges edges);
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
 TangentRect shadowedTangents(std::span<const SubLightLoops> subLights);

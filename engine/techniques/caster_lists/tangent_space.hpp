@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// The coordinates in which wedges-cells works. With (a, b, h) the light's coordinates (scene::LightPlane), a
-/// point is (t, i) = (a/h, b/h, 1/h). Seen from a receiver P, a point E in front of it projects onto the
-/// light at (tE - tP) / (iE - iP): two subtractions and a division, linear in E and in P before the division,
-/// and planes stay planes. The light is the square [-1, 1]².
+/// The coordinates of receivers and silhouettes in lists. With (a, b, h) the light's coordinates
+/// (scene::LightPlane), a point is (t, i) = (a/h, b/h, 1/h). Seen from a receiver P, a point E in front of it
+/// projects onto the light at (tE - tP) / (iE - iP): two subtractions and a division, linear in E and in P
+/// before the division, and planes stay planes. The light is the square [-1, 1]².
 #pragma once
 
 #include <array>

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/caster_lists/light_lists.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/frame_planner.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Heights are in units of the casters' farthest distance. What is nearer to the light's plane is cut.
+constexpr double kMinHeight = 1e-3;
+/// A point light counts as a square this wide, in the same units: hard shadows to a fraction of a pixel.
+constexpr double kMinHalfLength = 1e-4;
+/// Tiles of casters against those of other receivers: their surfaces turn away from the light within a tile,
+/// and their own silhouettes pass it. Measured at 27 spheres: half as many vertices a fragment at 1/4, a
+/// third less at 1/2, for twice and a half more list building.
+constexpr double kCasterTileShare = 0.5;
+
+Status upload(gl::Context& context, const ListImage& image, gl::Texture& texture) {
+  if (texture && texture.desc().width == image.width && texture.desc().height == image.height) {
+    texture.update(context, 0, 0, image.width, image.height, image.rgba.data());
+    return {};
+  }
+  auto made = gl::Texture::create(context, {.width = image.width, .height = image.height}, image.rgba.data());
+  if (!made) return made.error();
+  texture = std::move(made).value();
+  return {};
+}
+
+/// How far fragments of casters are moved off their surface, along its normal: about a thousandth of the
+/// casters' size, in steps of ten.
+double liftDistance(std::span<const DrawItem> casters, double bias) {
+  scene::Bounds bounds;
+  for (const DrawItem& caster : casters) bounds.include(caster.boundsWorld);
+  const double radius = bounds.radius();
+  return radius > 0.0 ? bias * 0.002 * std::pow(10.0, std::floor(std::log10(radius))) : 0.0;
+}
+
+/// Direction of a pixel's ray in the light's coordinates, from (x, y, 1) with x and y in [0, 1] over the
+/// view.
+glm::dmat3 pixelRays(const View& view, const scene::LightPlane& plane) {
+  const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
+  const auto direction = [&](double x, double y) {
+    const glm::dvec4 p = worldFromClip * glm::dvec4(x, y, 0.0, 1.0);
+    return plane.axes * (glm::dvec3(p) / p.w - view.eyeWorld);
+  };
+  const glm::dvec3 corner = direction(-1, -1);
+  glm::dmat3 rays(direction(1, -1) - corner, direction(-1, 1) - corner, corner);
+  // Only directions matter: at unit scale single precision has them all.
+  return rays / std::max(glm::length(corner), 1e-300);
+}
+
+}  // namespace
+
+void LightLists::findSilhouettes(const LightFrame& frame, const ListRequest& request) {
+  // A power of two: casters that move about must not change the coordinates of the others.
+  const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
+  lift_ = liftDistance(frame.casters, frame.settings.real("bias"));
+  plane_ = scene::LightPlane(frame.light, unit, kMinHalfLength * unit);
+  std::vector<scene::PlacedCaster> casters;
+  for (std::size_t i = 0; i < frame.casters.size(); ++i) {
+    casters.push_back({.mesh = &frame.casters[i].halfEdges(),
+                       .worldFromObject = frame.casters[i].worldFromObject,
+                       .object = static_cast<std::uint32_t>(i),
+                       .revision = frame.casters[i].revision});
+  }
+  subLights_.clear();
+  silhouettes_.resize(request.subLights.size());
+  for (std::size_t i = 0; i < request.subLights.size(); ++i) {
+    const SubLight& subLight = request.subLights[i];
+    subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane_, subLight.center.x, subLight.center.y,
+                                                        kMinHeight, scene::LayerSplit::alongside),
+                                 subLight));
+  }
+  shadows_ = shadowedTangents(subLights_);
+  receivers_.clear();
+}
+
+Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
+  const std::uint64_t key = planner::combineKeys(frame.contentKey, frame.settings.revision());
+  if (key_ != key) {
+    findSilhouettes(frame, request);
+    key_ = key;
+    encoded_.clear();
+  }
+  const glm::dvec2 size = shadows_.high - shadows_.low;
+  const double finest = std::max(size.x, size.y) / request.tiles;
+  const gl::Limits& limits = frame.capabilities.limits;
+  // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
+  const int maxRows =
+      std::min({limits.textureSize, 65536, frame.capabilities.has(gl::Capability::highp) ? 65536 : 1024});
+  if (tileSize_ < finest || receivers_.empty()) tileSize_ = finest;
+  bool changed = !tiles_;
+  for (int attempt = 0; attempt < 8; ++attempt) {
+    std::vector<const void*> used;
+    std::vector<ReceiverLists> receivers;
+    for (const DrawItem& item : frame.receivers) {
+      Receiver& cached = receivers_[item.geometry];
+      if (cached.revision != item.revision) {
+        cached.revision = item.revision;
+        cached.tiles = receiverTiles(
+            {.mesh = item.sourceMesh, .worldFromObject = item.worldFromObject, .closed = item.closed}, plane_,
+            shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_, kMaxTiles, kMinHeight, lift_);
+        cached.lists = cellLists(subLights_, cached.tiles, request.edges);
+        changed = true;
+      }
+      used.push_back(item.geometry);
+      receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
+    }
+    // Receivers come in the camera's order; what is encoded does not depend on it.
+    std::vector<const void*> inSomeOrder = used;
+    std::ranges::sort(inSomeOrder);
+    if (!changed && inSomeOrder == encoded_) return {};
+    EncodedLists encoded;
+    if (encodeLists(receivers, maxRows, encoded)) {
+      if (Status s = upload(frame.context, encoded.tiles, tiles_); !s) return s;
+      if (Status s = upload(frame.context, encoded.records, records_); !s) return s;
+      center_ = encoded.center;
+      step_ = encoded.step;
+      for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
+      encoded_ = std::move(inSomeOrder);
+      return {};
+    }
+    // Half as many tiles a side: lists grow by less than their number shrinks.
+    tileSize_ *= 2.0;
+    receivers_.clear();
+    frame.graph.noteSkipped(std::string(request.tilesKey),
+                            "the lists exceed the largest texture; tiles are twice as large");
+  }
+  return Error{ErrorCode::outOfMemory,
+               "the silhouettes' vertex lists exceed this device's largest texture; lower " +
+                   std::string(request.tilesKey)};
+}
+
+void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) const {
+  shading.forward = false;
+  // Most fragments have no list; a loop that ends at once still costs a round on some devices.
+  if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
+  shading.usesFacetPlane = true;
+  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+  shading.textures = {{.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_},
+                      {.sampler = "u_cellLists", .resource = {}, .texture = &records_}};
+  // Rows a, b, h, h: what the vertex shader hands on as (a, b, -, h).
+  const glm::dmat3& axes = plane_.axes;
+  const glm::dvec3 offset = plane_.fromWorld(glm::dvec3(0.0));
+  for (int column = 0; column < 3; ++column) {
+    shading.mapFromWorld[column] = glm::dvec4(axes[column], axes[column].z);
+  }
+  shading.mapFromWorld[3] = glm::dvec4(offset, offset.z);
+  const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.desc().width, tiles_.desc().height);
+  const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
+  const glm::mat3 lift(lift_ * lift_ * axes * glm::transpose(axes));
+  // Vertices are stored to half a step.
+  const auto heightBias = static_cast<float>(2.0 * frame.settings.real("bias")) * step_.z;
+  const glm::mat3 rays(pixelRays(frame.view, plane_));
+  const glm::vec3 eye(plane_.fromWorld(frame.view.eyeWorld));
+  shading.setUniforms = [lift, rays, eye, center = glm::vec4(center_, kMinHeight),
+                         step = glm::vec4(step_, heightBias), texel = glm::vec4(tileTexel, recordTexel)](
+                            gl::Program& program, gl::Context& context) {
+    program.set(context, "u_cellTexel", texel);
+    program.set(context, "u_listCenter", center);
+    program.set(context, "u_listScale", step);
+    program.set(context, "u_lift", lift);
+    program.set(context, "u_rayLight", rays);
+    program.set(context, "u_eyeLight", eye);
+    // The facet stream's gradient becomes that of i over t.
+    program.set(context, "u_vertexPlane", glm::vec4(-1.0f, 1.0f, 1.0f, 1e6f));
+  };
+  shading.setItemUniforms = [this](gl::Program& program, gl::Context& context, const DrawItem& item) {
+    const auto found = receivers_.find(item.geometry);
+    if (found == receivers_.end() || found->second.tiles.empty()) {
+      program.set(context, "u_tileAtlas", glm::vec4(0.0f));
+      return;
+    }
+    const ReceiverTiles& tiles = found->second.tiles;
+    const glm::dvec2 scale = 1.0 / tiles.tileSize;
+    program.set(context, "u_tileOfTangent", glm::vec4(glm::dvec4(scale, -tiles.low * scale)));
+    program.set(context, "u_tileAtlas",
+                glm::vec4(tiles.columns, tiles.rows, found->second.firstTexel.x, found->second.firstTexel.y));
+  };
+}
+
+}  // namespace halfshadow::techniques

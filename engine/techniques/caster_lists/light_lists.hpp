@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouettes of a light, sorted into vertex lists per tile of each receiver and kept in textures: what a
+/// fragment walks that gathers its casters.
+#pragma once
+
+#include <map>
+
+#include "techniques/caster_lists/list_textures.hpp"
+#include "techniques/core/technique.hpp"
+
+namespace halfshadow::techniques {
+
+/// Most tiles along a side.
+inline constexpr int kMaxTiles = 512;
+
+/// What a technique wants in its lists.
+struct ListRequest {
+  std::span<const SubLight> subLights;  ///< each with silhouettes of its own
+  ListedEdges edges = ListedEdges::covering;
+  int tiles = 128;            ///< along the longer side of what the shadows cover, seen from the light
+  std::string_view tilesKey;  ///< the setting that says so, for messages
+};
+
+/// The lists of one light.
+class LightLists {
+ public:
+  /// Makes anew what changed. Errors: outOfMemory (lists exceed the largest texture).
+  Status update(const LightFrame& frame, const ListRequest& request);
+  /// Silhouettes of the last update, one entry per sub-light.
+  std::span<const SubLightLoops> subLights() const { return subLights_; }
+  /// Textures, uniforms and two draws for a fragment shader with caster_lists.glsl. The shading refers to
+  /// this object.
+  void provide(const LightFrame& frame, ReceiverShading& shading) const;
+
+ private:
+  struct Receiver {
+    std::uint64_t revision = 0;
+    ReceiverTiles tiles;
+    CellLists lists;
+    glm::ivec2 firstTexel{0};
+  };
+  void findSilhouettes(const LightFrame& frame, const ListRequest& request);
+
+  std::uint64_t key_ = 0;
+  scene::LightPlane plane_;
+  std::vector<scene::LightSilhouetteCache> silhouettes_;
+  std::vector<SubLightLoops> subLights_;
+  TangentRect shadows_;
+  double tileSize_ = 1.0;
+  double lift_ = 0.0;                          ///< world units
+  std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
+  std::vector<const void*> encoded_;           ///< those in the textures, by address
+  gl::Texture tiles_, records_;
+  glm::vec3 center_{0.0f}, step_{1.0f};
+};
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/wedges_blended/wedges_blended.hpp"
+
+#include <algorithm>
+
+#include "techniques/caster_lists/light_lists.hpp"
+#include "techniques/wedge_volumes/wedge_passes.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+constexpr SubLight kWholeLight{glm::vec2(0.0f), 1.0f};
+
+/// Whether some receiver can lie in the penumbrae of two casters. Heights are in units of the farthest
+/// receiver's.
+bool castersMeet(const WedgePieces& pieces) {
+  std::vector<const WedgeCaster*> byA;
+  for (const WedgeCaster& caster : pieces.casters) byA.push_back(&caster);
+  for (std::size_t i = 0; i < byA.size(); ++i) {
+    for (std::size_t k = 0; k < i; ++k) {
+      if (byA[i]->extent.meets(byA[k]->extent, 1.0)) return true;
+    }
+  }
+  return false;
+}
+
+class WedgesBlended final : public Technique {
+ public:
+  const TechniqueInfo& info() const override {
+    static const TechniqueInfo info{
+        .id = "wedges-blended",
+        .paper = "Forest, Barthe, Paulin 2006; centres of gravity are its future work",
+        .summary =
+            "coverage per caster and quadrant of the light, less the overlap that rectangles and "
+            "centres of gravity tell",
+        .guarantees =
+            "exact where one convex caster shadows a receiver, seen from the light's centre; never "
+            "darker than without overlap, never lighter than the darkest caster",
+        .knownFailures =
+            "what both of two casters occlude within a quadrant is estimated; silhouettes are "
+            "those of the light's centre"};
+    return info;
+  }
+  std::vector<SettingInfo> settings() const override {
+    return {{"wedges-blended.cog",
+             SettingType::choice,
+             "on",
+             0,
+             0,
+             {"on", "off"},
+             "whether centres of gravity tell where in its rectangle a caster occludes"},
+            {"wedges-blended.tiles",
+             SettingType::integer,
+             "128",
+             1,
+             kMaxTiles,
+             {},
+             "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
+  }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    auto volumes = volumes_.update(frame);
+    if (!volumes) return volumes.error();
+    Light& light = lights_[frame.lightIndex];
+    if (light.meetKey != (*volumes)->contentKey) {
+      light.meet = castersMeet((*volumes)->pieces);
+      light.meetKey = (*volumes)->contentKey;
+    }
+    // Without highp the lists' fixed-point vertices are the more exact way.
+    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame, **volumes);
+    return gather(frame, light.lists);
+  }
+  void contextLost() override {
+    lights_.clear();
+    volumes_.contextLost();
+  }
+
+ private:
+  struct Light {
+    LightLists lists;
+    std::uint64_t meetKey = 0;
+    bool meet = false;
+  };
+
+  /// Without overlap there is nothing to blend.
+  static Result<ReceiverShading> addUp(const LightFrame& frame, const WedgeVolumes& volumes) {
+    frame.graph.noteSkipped("blending", "no two casters shadow the same receiver: their shares are added up");
+    auto depth = declareReceiverDepth(frame);
+    if (!depth) return depth.error();
+    return declareAdditiveWedges(frame, {&volumes, *depth});
+  }
+
+  /// One pass over the receivers; the vBuffers of a fragment are registers.
+  static Result<ReceiverShading> gather(const LightFrame& frame, LightLists& lists) {
+    const ListRequest request{.subLights = {&kWholeLight, 1},
+                              .edges = ListedEdges::all,
+                              .tiles = frame.settings.integer("wedges-blended.tiles"),
+                              .tilesKey = "wedges-blended.tiles"};
+    if (Status s = lists.update(frame, request); !s) return s.error();
+    ReceiverShading shading;
+    shading.fragmentFile = "wedges_blended.frag";
+    if (frame.settings.choice("wedges-blended.cog") == "on") shading.defines.push_back("HS_CENTRES");
+    lists.provide(frame, shading);
+    return shading;
+  }
+
+  WedgeVolumeCache volumes_;
+  std::map<int, Light> lights_;
+};
+}  // namespace
+
+std::unique_ptr<Technique> makeWedgesBlended() {
+  return std::make_unique<WedgesBlended>();
+}
+
+}  // namespace halfshadow::techniques
