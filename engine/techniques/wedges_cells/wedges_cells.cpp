@@ -19,7 +19,7 @@ class WedgesCells final : public Technique {
             "exact up to storage for one convex caster as each sub-light's centre sees it; the order "
             "of casters does not matter",
         .knownFailures =
-            "casters that overlap within one cell count as independent; a non-convex caster's "
+            "casters that overlap within one cell count as independent; on a non-convex caster itself its "
             "overlap with itself counts twice inside a cell"};
     return info;
   }
