@@ -19,8 +19,9 @@ class WedgesCells final : public Technique {
             "exact up to storage for one convex caster as each sub-light's centre sees it; the order "
             "of casters does not matter",
         .knownFailures =
-            "casters that overlap within one cell count as independent; on a non-convex caster itself its "
-            "overlap with itself counts twice inside a cell"};
+            "casters that overlap within one cell count as independent; a hollow of a caster whose own "
+            "silhouette passes at its height may be shadowed wholly, since the cut is closed by a "
+            "chord; a flat facet whose plane cuts the light loses it by quarters"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
