@@ -38,7 +38,7 @@ class AdditiveWedges final : public WedgeTechnique {
         .guarantees = "exact for one convex caster seen from the light's centre; sums never clamp part-way",
         .knownFailures =
             "too dark where penumbrae of several casters overlap; silhouettes are those of the "
-            "light's centre"};
+            "light's centre; a caster's shadow on itself is unreliable unless it is convex"};
     return info;
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
@@ -58,7 +58,7 @@ class ProbabilisticWedges final : public WedgeTechnique {
         .guarantees = "exact where one convex caster shadows a receiver; never darker than black",
         .knownFailures =
             "too light where casters side by side cover different parts of the light; silhouettes "
-            "are those of the light's centre"};
+            "are those of the light's centre; a caster's shadow on itself is unreliable unless it is convex"};
     return info;
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {

@@ -38,7 +38,7 @@ class WedgesBlended final : public Technique {
             "darker than without overlap, never lighter than the darkest caster",
         .knownFailures =
             "what both of two casters occlude within a quadrant is estimated; silhouettes are "
-            "those of the light's centre"};
+            "those of the light's centre; a caster's shadow on itself is unreliable unless it is convex"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
