@@ -86,6 +86,7 @@ std::vector<StressScene> makeScenes() {
   };
   add("figure", figure(1.0), 1.0, true);
   add("tiny-light", figure(1e-4), 1.5);  // a hard edge differs by whole pixels
+  add("point-light", figure(0.0), 1.5);
   // Silhouettes of the centre stand for points of the light at 40 degrees from it.
   add("huge-light", figure(8.0), 2.0, true);
   add("shifted-1e4", placed(figure(1.0), 1.0, {1e4, -1e4, 1e4}), 1.0, true);
@@ -175,6 +176,12 @@ std::vector<StressScene> makeScenes() {
 const std::vector<StressScene>& stressScenes() {
   static const std::vector<StressScene> all = makeScenes();
   return all;
+}
+
+scene::SceneDescription lampInABall() {
+  return sceneOf({solid(scenes::icosphereShape({0, 5, 0}, 0.8, 2)), box({2, 0.5, 0}, {0.3, 0.5, 0.3}),
+                  groundPlane(40.0)},
+                 lightAbove({0, 5, 0}, 0.2, 0.2), lookAt({-3, 5, 5}, {-3, 0, 0}));
 }
 
 scene::SceneDescription flickerScene() {

@@ -22,6 +22,9 @@ struct StressScene {
 };
 const std::vector<StressScene>& stressScenes();
 
+/// A closed ball around the whole light; the camera sees the ground alone.
+scene::SceneDescription lampInABall();
+
 /// One caster that moves over the ground: frame 0 … frames - 1. Returns where object 0 then stands.
 scene::SceneDescription flickerScene();
 glm::dmat4 flickerPlace(int frame, int frames);

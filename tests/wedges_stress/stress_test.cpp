@@ -180,6 +180,15 @@ TEST_P(WedgesStress, NoSpeckleAndItsUsualError) {
   }
 }
 
+TEST_P(WedgesStress, ClosedCasterAroundTheLightShadowsEverythingOutside) {
+  std::string reason;
+  if (!supports(GetParam().id, reason)) GTEST_SKIP() << GetParam().id << ": " << reason;
+  renderer().load(lampInABall());
+  const Image image = renderer().render(Configuration{GetParam().id});
+  // The camera looks down at the ground alone.
+  EXPECT_EQ(std::ranges::count_if(image.visibility(), [](float v) { return v > 0.0f; }), 0);
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, WedgesStress, testing::ValuesIn(kFamilies), [](const auto& tested) {
   std::string name = tested.param.id;
   std::ranges::replace(name, '-', '_');
