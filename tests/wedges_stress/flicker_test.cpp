@@ -30,7 +30,7 @@ void PrintTo(const Family& family, std::ostream* stream) {
 // of the light, 6 degrees away, it is .08 wide, a sixth of the penumbra, and the silhouette jumps across it
 // (measured: .11 and .086 in one frame of 200). Four sub-lights jump one after the other.
 const Family kFamilies[] = {
-    {"wedges", 0.12}, {"wedges-probabilistic", 0.1}, {"wedges-blended", 0.1}, {"wedges-cells", kJump}};
+    {"wedges", 0.12}, {"wedges-probabilistic", 0.1}, {"wedges-blended", kJump}, {"wedges-cells", kJump}};
 
 class WedgesFlicker : public SharedEngineTest, public testing::WithParamInterface<Family> {};
 

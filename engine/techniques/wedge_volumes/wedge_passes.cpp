@@ -70,11 +70,13 @@ Result<ReceiverShading> declareAdditiveWedges(const LightFrame& frame, const Wed
                             .reads = {wedges.depth.packed},
                             .writes = wedgeTargets(sums, wedges.depth, InitialContent::clear, 0.0f)};
   pass.execute = [programs = *programs, wedges, &view = frame.view](framegraph::PassContext& context) {
+    if (wedges.volumes->lightEnclosed) return;
     const CasterRange all{0, static_cast<std::uint32_t>(wedges.volumes->pieces.casters.size())};
     addVolumes(context, programs, wedges, view, {&all, 1}, kAdd, kStepsOfAll);
   };
   frame.graph.addPass(std::move(pass));
-  return screenShading(sums, kStepsOfAll);
+  // Nothing drawn reads as visibility 0.
+  return screenShading(sums, wedges.volumes->lightEnclosed ? 0.0f : kStepsOfAll);
 }
 
 }  // namespace halfshadow::techniques

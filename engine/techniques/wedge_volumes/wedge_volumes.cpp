@@ -225,6 +225,8 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   const scene::LightSilhouettes& silhouettes =
       volumes.silhouettes.update(casters, volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
+  volumes.lightEnclosed =
+      std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
   if (!volumes.pieces.pieces.empty()) {
     const bool highp = frame.capabilities.has(gl::Capability::highp);
     const WedgePieces& pieces = volumes.pieces;

@@ -18,6 +18,7 @@ struct WedgeVolumes {
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   scene::LightSilhouetteCache silhouettes;
   WedgePieces pieces;
+  bool lightEnclosed = false;  ///< a closed caster stands around the light's centre: nothing outside is lit
   glm::dvec3 unit{1.0};  ///< of a, b and h in the vertex stream: the grid's steps where fragments have highp
   gl::Buffer vertices, indices;
 };

@@ -96,7 +96,8 @@ class ProbabilisticWedges final : public WedgeTechnique {
     framegraph::PassDesc pass{.name = wedgePassName(frame, "wedges of whole casters"),
                               .stage = framegraph::PassStage::receiverPrepass,
                               .reads = {wedges.depth.packed},
-                              .writes = wedgeTargets(visibility, wedges.depth, InitialContent::clear, 1.0f)};
+                              .writes = wedgeTargets(visibility, wedges.depth, InitialContent::clear,
+                                                     wedges.volumes->lightEnclosed ? 0.0f : 1.0f)};
     pass.execute = [programs = *programs, wedges, &view = frame.view,
                     casters = castersWhere(wedges.volumes->pieces, [](const WedgeCaster& caster) {
                       return caster.pieceCount == 1;
