@@ -42,20 +42,22 @@ class WedgesBlended final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override {
-    return {{"wedges-blended.cog",
-             SettingType::choice,
-             "on",
-             0,
-             0,
-             {"on", "off"},
-             "whether centres of gravity tell where in its rectangle a caster occludes"},
-            {"wedges-blended.tiles",
-             SettingType::integer,
-             "128",
-             1,
-             kMaxTiles,
-             {},
-             "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
+    return {
+        {"wedges-blended.cog",
+         SettingType::choice,
+         "off",
+         0,
+         0,
+         {"on", "off"},
+         "whether centres of gravity tell where in its rectangle a caster occludes: a third less error for "
+         "a third more time"},
+        {"wedges-blended.tiles",
+         SettingType::integer,
+         "128",
+         1,
+         kMaxTiles,
+         {},
+         "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto volumes = volumes_.update(frame);
