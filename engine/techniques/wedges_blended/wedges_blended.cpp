@@ -51,6 +51,14 @@ class WedgesBlended final : public Technique {
          {"on", "off"},
          "whether centres of gravity tell where in its rectangle a caster occludes: a third less error for "
          "a third more time"},
+        {"wedges-blended.merge",
+         SettingType::choice,
+         "auto",
+         0,
+         0,
+         {"auto", "core"},
+         "how vBuffers are merged: core keeps both in registers and needs no extension; auto takes the "
+         "cheapest here, which is core"},
         {"wedges-blended.tiles",
          SettingType::integer,
          "128",
