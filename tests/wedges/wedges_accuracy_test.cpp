@@ -11,16 +11,11 @@
 #include "metrics/metrics.hpp"
 #include "reference/closed_forms.hpp"
 #include "reference/reference.hpp"
-#include "truth.hpp"
+#include "wedge_accuracy.hpp"
 
 namespace halfshadow::test {
 namespace {
 
-const std::vector<std::string> kWedgeScenes = {
-    "spheres27@light=0.3", "spheres27@light=1", "spheres27@light=2", "spheres81@light=1", "spheres81@light=2",
-    "box@light=0.3",       "box@light=1",       "box@light=2",       "bars@light=1",      "bars@light=2",
-    "fence@light=0.3",     "fence@light=1",     "leaves@light=0.3",  "leaves@light=1",    "leaves@light=2",
-    "figure@light=0.3",    "figure@light=1"};
 constexpr const char* kBoth[] = {"wedges", "wedges-probabilistic"};
 
 bool onAngle() {
