@@ -59,13 +59,7 @@ void LightLists::findSilhouettes(const LightFrame& frame, const ListRequest& req
   const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
   lift_ = liftDistance(frame.casters, frame.settings.real("bias"));
   plane_ = scene::LightPlane(frame.light, unit, kMinHalfLength * unit);
-  std::vector<scene::PlacedCaster> casters;
-  for (std::size_t i = 0; i < frame.casters.size(); ++i) {
-    casters.push_back({.mesh = &frame.casters[i].halfEdges(),
-                       .worldFromObject = frame.casters[i].worldFromObject,
-                       .object = static_cast<std::uint32_t>(i),
-                       .revision = frame.casters[i].revision});
-  }
+  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
   subLights_.clear();
   silhouettes_.resize(request.subLights.size());
   for (std::size_t i = 0; i < request.subLights.size(); ++i) {

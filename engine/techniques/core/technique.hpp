@@ -17,6 +17,7 @@
 #include "gl/program.hpp"
 #include "planner/light_fit.hpp"
 #include "scene/half_edge_mesh.hpp"
+#include "scene/light_silhouettes.hpp"
 #include "techniques/core/gpu_mesh.hpp"
 #include "techniques/core/settings.hpp"
 #include "techniques/core/shared_textures.hpp"
@@ -98,6 +99,9 @@ struct LightFrame {
   framegraph::Lifetime mapLifetime = framegraph::Lifetime::persistent;
   FilterSkip preferredSkip = FilterSkip::stencil;  ///< setting filter_skip: the device profile's choice
 };
+
+/// The frame's casters as silhouettes are taken of them; `object` is the index in LightFrame::casters.
+std::vector<scene::PlacedCaster> placedCasters(const LightFrame& frame);
 
 /// Of the setting value "branch", "loop" or "stencil".
 FilterSkip filterSkipFromName(std::string_view name);

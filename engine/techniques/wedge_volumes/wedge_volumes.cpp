@@ -214,13 +214,7 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   volumes.contentKey = 0;
   volumes.plane = plane;
   volumes.reach = reach;
-  std::vector<scene::PlacedCaster> casters;
-  for (std::uint32_t i = 0; i < frame.casters.size(); ++i) {
-    casters.push_back({.mesh = &frame.casters[i].halfEdges(),
-                       .worldFromObject = frame.casters[i].worldFromObject,
-                       .object = i,
-                       .revision = frame.casters[i].revision});
-  }
+  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
   // What a caster covers at all counts once, however often it covers it.
   const scene::LightSilhouettes& silhouettes =
       volumes.silhouettes.update(casters, volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
