@@ -5,38 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/frame_planner.hpp"
-
 namespace halfshadow::techniques {
 namespace {
-/// Heights are in units of the casters' farthest distance. What is nearer to the light's plane is cut.
-constexpr double kMinHeight = 1e-3;
-/// A point light counts as a square this wide, in the same units: hard shadows to a fraction of a pixel.
-constexpr double kMinHalfLength = 1e-4;
 /// Tiles of casters against those of other receivers: their surfaces turn away from the light within a tile,
 /// and their own silhouettes pass it. Measured at 27 spheres: half as many vertices a fragment at 1/4, a
 /// third less at 1/2, for twice and a half more list building.
 constexpr double kCasterTileShare = 0.5;
-
-Status upload(gl::Context& context, const ListImage& image, gl::Texture& texture) {
-  if (texture && texture.desc().width == image.width && texture.desc().height == image.height) {
-    texture.update(context, 0, 0, image.width, image.height, image.rgba.data());
-    return {};
-  }
-  auto made = gl::Texture::create(context, {.width = image.width, .height = image.height}, image.rgba.data());
-  if (!made) return made.error();
-  texture = std::move(made).value();
-  return {};
-}
-
-/// How far fragments of casters are moved off their surface, along its normal: about a thousandth of the
-/// casters' size, in steps of ten.
-double liftDistance(std::span<const DrawItem> casters, double bias) {
-  scene::Bounds bounds;
-  for (const DrawItem& caster : casters) bounds.include(caster.boundsWorld);
-  const double radius = bounds.radius();
-  return radius > 0.0 ? bias * 0.002 * std::pow(10.0, std::floor(std::log10(radius))) : 0.0;
-}
 
 /// Direction of a pixel's ray in the light's coordinates, from (x, y, 1) with x and y in [0, 1] over the
 /// view.
@@ -54,29 +28,21 @@ glm::dmat3 pixelRays(const View& view, const scene::LightPlane& plane) {
 
 }  // namespace
 
-void LightLists::findSilhouettes(const LightFrame& frame, const ListRequest& request) {
-  // A power of two: casters that move about must not change the coordinates of the others.
-  const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
-  lift_ = liftDistance(frame.casters, frame.settings.real("bias"));
-  plane_ = scene::LightPlane(frame.light, unit, kMinHalfLength * unit);
-  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
-  subLights_.clear();
-  silhouettes_.resize(request.subLights.size());
-  for (std::size_t i = 0; i < request.subLights.size(); ++i) {
-    const SubLight& subLight = request.subLights[i];
-    subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane_, subLight.center.x, subLight.center.y,
-                                                        kMinHeight, scene::LayerSplit::alongside),
-                                 subLight));
+Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture) {
+  if (texture && texture.desc().width == image.width && texture.desc().height == image.height) {
+    texture.update(context, 0, 0, image.width, image.height, image.rgba.data());
+    return {};
   }
-  shadows_ = shadowedTangents(subLights_);
-  receivers_.clear();
+  auto made = gl::Texture::create(context, {.width = image.width, .height = image.height}, image.rgba.data());
+  if (!made) return made.error();
+  texture = std::move(made).value();
+  return {};
 }
 
 Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
-  const std::uint64_t key = planner::combineKeys(frame.contentKey, frame.settings.revision());
-  if (key_ != key) {
-    findSilhouettes(frame, request);
-    key_ = key;
+  if (loops_.update(frame, request.subLights)) {
+    shadows_ = shadowedTangents(loops_.subLights());
+    receivers_.clear();
     encoded_.clear();
   }
   const glm::dvec2 size = shadows_.high - shadows_.low;
@@ -95,9 +61,10 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       if (cached.revision != item.revision) {
         cached.revision = item.revision;
         cached.tiles = receiverTiles(
-            {.mesh = item.sourceMesh, .worldFromObject = item.worldFromObject, .closed = item.closed}, plane_,
-            shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_, kMaxTiles, kMinHeight, lift_);
-        cached.lists = cellLists(subLights_, cached.tiles, request.edges);
+            {.mesh = item.sourceMesh, .worldFromObject = item.worldFromObject, .closed = item.closed},
+            loops_.plane(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_, kMaxTiles,
+            LightLoops::kMinHeight, loops_.lift());
+        cached.lists = cellLists(loops_.subLights(), cached.tiles, request.edges);
         changed = true;
       }
       used.push_back(item.geometry);
@@ -109,8 +76,8 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     if (!changed && inSomeOrder == encoded_) return {};
     EncodedLists encoded;
     if (encodeLists(receivers, maxRows, encoded)) {
-      if (Status s = upload(frame.context, encoded.tiles, tiles_); !s) return s;
-      if (Status s = upload(frame.context, encoded.records, records_); !s) return s;
+      if (Status s = uploadList(frame.context, encoded.tiles, tiles_); !s) return s;
+      if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
       center_ = encoded.center;
       step_ = encoded.step;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
@@ -137,20 +104,21 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   shading.textures = {{.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_},
                       {.sampler = "u_cellLists", .resource = {}, .texture = &records_}};
   // Rows a, b, h, h: what the vertex shader hands on as (a, b, -, h).
-  const glm::dmat3& axes = plane_.axes;
-  const glm::dvec3 offset = plane_.fromWorld(glm::dvec3(0.0));
+  const scene::LightPlane& plane = loops_.plane();
+  const glm::dmat3& axes = plane.axes;
+  const glm::dvec3 offset = plane.fromWorld(glm::dvec3(0.0));
   for (int column = 0; column < 3; ++column) {
     shading.mapFromWorld[column] = glm::dvec4(axes[column], axes[column].z);
   }
   shading.mapFromWorld[3] = glm::dvec4(offset, offset.z);
   const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.desc().width, tiles_.desc().height);
   const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
-  const glm::mat3 lift(lift_ * lift_ * axes * glm::transpose(axes));
+  const glm::mat3 lift(loops_.lift() * loops_.lift() * axes * glm::transpose(axes));
   // Vertices are stored to half a step.
   const auto heightBias = static_cast<float>(2.0 * frame.settings.real("bias")) * step_.z;
-  const glm::mat3 rays(pixelRays(frame.view, plane_));
-  const glm::vec3 eye(plane_.fromWorld(frame.view.eyeWorld));
-  shading.setUniforms = [lift, rays, eye, center = glm::vec4(center_, kMinHeight),
+  const glm::mat3 rays(pixelRays(frame.view, plane));
+  const glm::vec3 eye(plane.fromWorld(frame.view.eyeWorld));
+  shading.setUniforms = [lift, rays, eye, center = glm::vec4(center_, LightLoops::kMinHeight),
                          step = glm::vec4(step_, heightBias), texel = glm::vec4(tileTexel, recordTexel)](
                             gl::Program& program, gl::Context& context) {
     program.set(context, "u_cellTexel", texel);

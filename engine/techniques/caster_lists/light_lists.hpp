@@ -7,6 +7,7 @@
 
 #include <map>
 
+#include "techniques/caster_lists/light_loops.hpp"
 #include "techniques/caster_lists/list_textures.hpp"
 #include "techniques/core/technique.hpp"
 
@@ -23,13 +24,16 @@ struct ListRequest {
   std::string_view tilesKey;  ///< the setting that says so, for messages
 };
 
+/// Into `texture`, made anew when the size differs. Errors: outOfMemory.
+Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture);
+
 /// The lists of one light.
 class LightLists {
  public:
   /// Makes anew what changed. Errors: outOfMemory (lists exceed the largest texture).
   Status update(const LightFrame& frame, const ListRequest& request);
   /// Silhouettes of the last update, one entry per sub-light.
-  std::span<const SubLightLoops> subLights() const { return subLights_; }
+  std::span<const SubLightLoops> subLights() const { return loops_.subLights(); }
   /// Textures, uniforms and two draws for a fragment shader with caster_lists.glsl. The shading refers to
   /// this object.
   void provide(const LightFrame& frame, ReceiverShading& shading) const;
@@ -41,15 +45,10 @@ class LightLists {
     CellLists lists;
     glm::ivec2 firstTexel{0};
   };
-  void findSilhouettes(const LightFrame& frame, const ListRequest& request);
 
-  std::uint64_t key_ = 0;
-  scene::LightPlane plane_;
-  std::vector<scene::LightSilhouetteCache> silhouettes_;
-  std::vector<SubLightLoops> subLights_;
+  LightLoops loops_;
   TangentRect shadows_;
   double tileSize_ = 1.0;
-  double lift_ = 0.0;                          ///< world units
   std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
   std::vector<const void*> encoded_;           ///< those in the textures, by address
   gl::Texture tiles_, records_;

@@ -58,10 +58,10 @@ void assignBatches(WedgePieces& result, double farthest) {
 }  // namespace
 
 void WedgeExtent::include(const glm::dvec3& abh) {
-  lowA = std::min(lowA, (abh.x - 1.0) / abh.z);
-  highA = std::max(highA, (abh.x + 1.0) / abh.z);
-  lowB = std::min(lowB, (abh.y - 1.0) / abh.z);
-  highB = std::max(highB, (abh.y + 1.0) / abh.z);
+  lowA = std::min(lowA, (abh.x - lightHigh.x) / abh.z);
+  highA = std::max(highA, (abh.x - lightLow.x) / abh.z);
+  lowB = std::min(lowB, (abh.y - lightHigh.y) / abh.z);
+  highB = std::max(highB, (abh.y - lightLow.y) / abh.z);
   nearest = std::min(nearest, abh.z), farthest = std::max(farthest, abh.z);
 }
 
@@ -72,7 +72,10 @@ void WedgeExtent::include(const WedgeExtent& other) {
 }
 
 bool WedgeExtent::meets(const WedgeExtent& other, double end) const {
-  const double from = std::max(nearest, other.nearest);
+  return meetsBetween(other, std::max(nearest, other.nearest), end);
+}
+
+bool WedgeExtent::meetsBetween(const WedgeExtent& other, double from, double end) const {
   if (from > end) return false;
   // Sides are linear in h: two rectangles apart on one side at both ends are apart between them.
   const auto apart = [&](const WedgeExtent& left, const WedgeExtent& right) {

@@ -25,12 +25,17 @@ inline constexpr int kPieceVertices = 8;
 struct WedgeExtent {
   double lowA = 1e30, highA = -1e30, lowB = 1e30, highB = -1e30;
   double nearest = 1e30, farthest = 0.0;  ///< heights of its own
+  /// The light's rectangle: all of it, or the part whose shadows are meant, which takes the place of -1
+  /// and 1.
+  glm::dvec2 lightLow{-1.0}, lightHigh{1.0};
   void include(const glm::dvec3& abh);
   void include(const WedgeExtent& other);
-  glm::dvec2 low(double h) const { return {1.0 + lowA * h, 1.0 + lowB * h}; }
-  glm::dvec2 high(double h) const { return {highA * h - 1.0, highB * h - 1.0}; }
+  glm::dvec2 low(double h) const { return lightHigh + glm::dvec2(lowA, lowB) * h; }
+  glm::dvec2 high(double h) const { return lightLow + glm::dvec2(highA, highB) * h; }
   /// Whether a receiver at a height up to `end` can lie in both.
   bool meets(const WedgeExtent& other, double end) const;
+  /// The same for heights above `from`, where both extents have begun.
+  bool meetsBetween(const WedgeExtent& other, double from, double end) const;
 };
 
 /// A closed polygon of at most kPieceVertices vertices. The pieces of a loop add up to the loop: chords

@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "planner/frame_planner.hpp"
+#include "techniques/wedge_volumes/volume_boxes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -25,11 +26,8 @@ constexpr double kAllNear = 1e-3, kAllNearWithoutHighp = 4e-3;
 
 /// Three rectangles a piece: at its nearest vertex, where all vertices are nearer than receivers, at the end.
 /// Between the first two lies the volume whose receivers need clipping, between the last two the rest.
-constexpr int kCorners = 12, kIndices = 36;
-constexpr std::size_t kPiecesPerDraw = 65536 / kCorners;
-/// Corner bits: 1 = high a, 2 = high b, 4 = the farther rectangle. Counter-clockwise from outside.
-constexpr std::array<std::uint16_t, kIndices> kBox = {0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4,
-                                                      2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5};
+constexpr int kCorners = 12, kIndices = kVolumeIndices;
+constexpr std::size_t kPiecesPerDraw = volumesPerDraw(kCorners);
 
 /// A whole number of steps that a piece's centre is rounded to: wedge_piece.glsl.
 constexpr double kCenterSteps = 64.0;
@@ -43,8 +41,6 @@ struct Vertex {
   glm::vec3 center;  ///< in units of kCenterSteps
 };
 constexpr int kStride = sizeof(Vertex);
-/// What rectangles are grown by, so that rounding leaves no receiver outside.
-constexpr double kMargin = 1e-4;
 
 double farthestReceiver(const LightFrame& frame) {
   const glm::dvec3 normal = scene::emissionDirection(frame.light);
@@ -57,38 +53,6 @@ double farthestReceiver(const LightFrame& frame) {
     }
   }
   return farthest;
-}
-
-/// Half side of a square of (a, b) around every receiver, at least twice as wide: a power of two, so that it
-/// seldom changes.
-double reachOf(const LightFrame& frame, const scene::LightPlane& plane) {
-  double farthest = 1.0;
-  for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
-    for (const DrawItem& item : items) {
-      for (const glm::dvec3& corner : item.boundsWorld.corners()) {
-        const glm::dvec3 abh = plane.fromWorld(corner);
-        farthest = std::max({farthest, std::abs(abh.x), std::abs(abh.y)});
-      }
-    }
-  }
-  return std::exp2(std::ceil(std::log2(farthest)) + 1.0);
-}
-
-/// Near the light's plane penumbrae spread almost sideways, to corners so far away that rasterisers lose
-/// their depth. A side that leaves the receivers' reach stands upright at its border instead.
-bool leavesReach(const WedgeExtent& extent, double reach) {
-  const glm::dvec2 low = extent.low(kFarthest), high = extent.high(kFarthest);
-  return std::min(low.x, low.y) < -reach || std::max(high.x, high.y) > reach;
-}
-glm::dvec2 lowWithin(const WedgeExtent& extent, double h, double reach) {
-  const glm::dvec2 low = extent.low(h), end = extent.low(kFarthest);
-  return {end.x < -reach ? std::min(-reach, extent.low(extent.nearest).x) : low.x,
-          end.y < -reach ? std::min(-reach, extent.low(extent.nearest).y) : low.y};
-}
-glm::dvec2 highWithin(const WedgeExtent& extent, double h, double reach) {
-  const glm::dvec2 high = extent.high(h), end = extent.high(kFarthest);
-  return {end.x > reach ? std::max(reach, extent.high(extent.nearest).x) : high.x,
-          end.y > reach ? std::max(reach, extent.high(extent.nearest).y) : high.y};
 }
 
 std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& unit, double allNear,
@@ -111,11 +75,8 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
     const double nearest = piece.extent.nearest;
     const double last = std::min(piece.extent.farthest + allNear, kFarthest);
     for (const double h : {nearest, last, kFarthest}) {
-      const glm::dvec2 low = lowWithin(piece.extent, h, reach), high = highWithin(piece.extent, h, reach);
-      const glm::dvec2 grown = kMargin * (high - low + 1.0);
-      for (int corner = 0; corner < 4; ++corner) {
-        vertex.corner = glm::dvec3(corner & 1 ? high.x + grown.x : low.x - grown.x,
-                                   corner & 2 ? high.y + grown.y : low.y - grown.y, h);
+      for (const glm::dvec3& corner : volumeCorners(piece.extent, h, {.end = kFarthest, .sideways = reach})) {
+        vertex.corner = corner;
         stream.push_back(vertex);
       }
     }
@@ -123,58 +84,9 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
   return stream;
 }
 
-Status upload(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
-              std::span<const std::byte> bytes) {
-  if (buffer) return buffer.update(context, bytes);
-  auto made = gl::Buffer::create(context, target, bytes, gl::BufferUsage::dynamicDraw);
-  if (!made) return made.error();
-  buffer = std::move(*made);
-  return {};
-}
-
-/// The index pattern, repeated; grows only.
-Status uploadIndices(gl::Context& context, gl::Buffer& buffer, std::size_t pieces) {
-  pieces = std::min(pieces, kPiecesPerDraw);
-  if (buffer && buffer.byteCount() >= pieces * kIndices * 2) return {};
-  std::vector<std::uint16_t> indices;
-  for (std::size_t piece = 0; piece < pieces; ++piece) {
-    for (const std::uint16_t index : kBox)
-      indices.push_back(static_cast<std::uint16_t>(piece * kCorners + index));
-  }
-  return upload(context, buffer, gl::BufferTarget::index, std::as_bytes(std::span(indices)));
-}
-
 std::uint64_t keyOf(const LightFrame& frame, double farthest, double reach) {
   return planner::combineKeys(planner::combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest)),
                               std::bit_cast<std::uint64_t>(reach));
-}
-
-/// Points whose hull contains everything between the eye and the near plane's rectangle.
-std::array<glm::dvec3, 5> eyeHull(const View& view, const scene::LightPlane& plane) {
-  const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
-  std::array<glm::dvec3, 5> hull;
-  hull[4] = plane.fromWorld(view.eyeWorld);
-  for (int corner = 0; corner < 4; ++corner) {
-    const glm::dvec4 point = worldFromClip * glm::dvec4(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, -1, 1);
-    hull[static_cast<std::size_t>(corner)] = plane.fromWorld(glm::dvec3(point) / point.w);
-  }
-  return hull;
-}
-
-/// True when one side of the volume keeps all of the hull outside, with some to spare.
-bool eyeOutside(const WedgeExtent& extent, double reach, const std::array<glm::dvec3, 5>& hull) {
-  if (leavesReach(extent, reach)) return false;
-  bool outside[6] = {true, true, true, true, true, true};
-  for (const glm::dvec3& eye : hull) {
-    const glm::dvec2 low = extent.low(eye.z) - 0.01, high = extent.high(eye.z) + 0.01;
-    outside[0] &= eye.x < low.x;
-    outside[1] &= eye.x > high.x;
-    outside[2] &= eye.y < low.y;
-    outside[3] &= eye.y > high.y;
-    outside[4] &= eye.z < 0.99 * extent.nearest;
-    outside[5] &= eye.z > kFarthest * 1.01;
-  }
-  return std::ranges::any_of(outside, [](bool side) { return side; });
 }
 
 void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::DrawState& state, WedgePart part,
@@ -208,7 +120,7 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
   const double farthest = std::max(farthestReceiver(frame), 1e-9);
   const scene::LightPlane plane(frame.light, farthest, kMinHalfLength * farthest);
-  const double reach = reachOf(frame, plane);
+  const double reach = sidewaysReach(frame, plane);
   const std::uint64_t key = keyOf(frame, farthest, reach);
   if (volumes.contentKey == key) return &volumes;
   volumes.contentKey = 0;
@@ -228,12 +140,14 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
         glm::dvec3(pieces.stepAB, pieces.stepAB, pieces.stepH) * (highp ? 1.0 : kStepsWithoutHighp);
     const std::vector<Vertex> stream =
         vertexStream(pieces, volumes.unit, highp ? kAllNear : kAllNearWithoutHighp, reach);
-    if (Status s = upload(frame.context, volumes.vertices, gl::BufferTarget::vertex,
-                          std::as_bytes(std::span(stream)));
+    if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
+                                 std::as_bytes(std::span(stream)));
         !s) {
       return s.error();
     }
-    if (Status s = uploadIndices(frame.context, volumes.indices, volumes.pieces.pieces.size()); !s)
+    if (Status s =
+            uploadVolumeIndices(frame.context, volumes.indices, volumes.pieces.pieces.size(), kCorners);
+        !s)
       return s.error();
   }
   volumes.contentKey = key;
@@ -253,6 +167,7 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   const glm::dvec3& unit = volumes.unit;
   program.set(encoder.context(), "u_pieceGrid", glm::vec4(unit.x, unit.z, 1.0 / unit.x, 1.0 / unit.z));
   const auto hull = eyeHull(view, plane);
+  const VolumeReach reach{.end = kFarthest, .sideways = volumes.reach};
   if (part == WedgePart::beside) {
     // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject
     // it.
@@ -273,7 +188,7 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   for (const CasterRange& range : casters) {
     for (std::uint32_t i = range.first; i < range.first + range.count; ++i) {
       const WedgeCaster& caster = volumes.pieces.casters[i];
-      const bool casterOutside = eyeOutside(caster.extent, volumes.reach, hull);
+      const bool casterOutside = eyeOutside(caster.extent, reach, hull);
       if (casterOutside != outside || caster.firstPiece != end) {
         flush(outside, first, end);
         first = caster.firstPiece, outside = casterOutside;
