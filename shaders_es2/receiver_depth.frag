@@ -1,13 +1,48 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Split into bytes by integer arithmetic and stored a quarter above the step, so that targets which round and
-// targets which truncate keep all bits that the arithmetic has.
+// targets which truncate keep all bits that the arithmetic has. Alpha: 1, or where the facet faces, on its side towards
+// the eye: a point of a grid of 15 x 16 over an octahedron, within 17 degrees.
 varying HS_HIGHP float v_distance;
+#ifdef HS_FACET_NORMAL
+varying HS_HIGHP vec4 v_facet;
+uniform HS_HIGHP mat3 u_pixelRay;  // ray of a window position (x, y, 1), 1 along the view axis
+#elif defined(HS_FACETS)
+varying HS_HIGHP vec3 v_relative;
+#endif
+#ifdef HS_FACETS
+float hs_facetCode() {
+#ifdef HS_FACET_NORMAL
+  HS_HIGHP vec3 n = v_facet.xyz;
+#else
+  HS_HIGHP vec3 n = cross(dFdx(v_relative), dFdy(v_relative));
+  n = dot(n, v_relative) > 0.0 ? -n : n;
+#endif
+  HS_HIGHP float size = abs(n.x) + abs(n.y) + abs(n.z);
+  HS_HIGHP vec2 side = n.xy / (size > 0.0 ? size : 1.0);
+  if (n.z < 0.0) side = (1.0 - abs(side.yx)) * vec2(side.x < 0.0 ? -1.0 : 1.0, side.y < 0.0 ? -1.0 : 1.0);
+  HS_HIGHP vec2 cell = floor((0.5 + 0.5 * side) * vec2(14.0, 15.0) + 0.5);
+  return cell.x + 15.0 * cell.y + 1.0;
+}
+#endif
 void main() {
-  HS_HIGHP float scaled = clamp(v_distance, 0.0, 0.9999999) * 256.0;
+  HS_HIGHP float along = v_distance;
+#ifdef HS_FACET_NORMAL
+  // Rasterisers snap vertices, some to a sixteenth of a pixel, and interpolate to match: a narrow penumbra shows that.
+  // The pixel's own ray meets the facet's plane where it should, unless the facet is seen edge-on.
+  HS_HIGHP float across = dot(v_facet.xyz, u_pixelRay * vec3(gl_FragCoord.xy, 1.0));
+  HS_HIGHP float met = v_facet.w / (abs(across) < 1e-20 ? 1e-20 : across);
+  along = abs(met - along) < 0.01 * along ? met : along;
+#endif
+  HS_HIGHP float scaled = clamp(along, 0.0, 0.9999999) * 256.0;
   HS_HIGHP float high = floor(scaled);
   scaled = (scaled - high) * 256.0;
   HS_HIGHP float middle = floor(scaled);
   HS_HIGHP float low = floor((scaled - middle) * 256.0);
-  gl_FragColor = vec4((vec3(min(high, 255.0), middle, low) + 0.25) / 255.0, 1.0);
+#ifdef HS_FACETS
+  float code = hs_facetCode();
+#else
+  float code = 254.75;
+#endif
+  gl_FragColor = (vec4(min(high, 255.0), middle, low, code) + 0.25) / 255.0;
 }

@@ -7,12 +7,26 @@ uniform HS_HIGHP vec4 u_receiverRay;
 uniform HS_HIGHP vec4 u_receiverRayX;  // w: 1 / width
 uniform HS_HIGHP vec4 u_receiverRayY;  // w: 1 / height
 
+HS_HIGHP vec4 hs_storedReceiver() {
+  return texture2D(u_receiverDepth, gl_FragCoord.xy * vec2(u_receiverRayX.w, u_receiverRayY.w));
+}
+
 // Bytes as integers, then the distance in steps that every precision represents.
-HS_HIGHP vec3 hs_receiverPosition() {
+HS_HIGHP vec3 hs_positionOf(HS_HIGHP vec4 stored) {
   HS_HIGHP vec2 window = gl_FragCoord.xy;
-  HS_HIGHP vec4 stored = texture2D(u_receiverDepth, window * vec2(u_receiverRayX.w, u_receiverRayY.w));
   HS_HIGHP vec3 bytes = floor(stored.rgb * 255.0 + 0.5);
   HS_HIGHP float along = ((bytes.z * (1.0 / 256.0) + bytes.y) * (1.0 / 256.0) + bytes.x) * (1.0 / 256.0);
   HS_HIGHP vec3 ray = u_receiverRay.xyz + window.x * u_receiverRayX.xyz + window.y * u_receiverRayY.xyz;
   return u_receiverEye.xyz + along * ray;
+}
+HS_HIGHP vec3 hs_receiverPosition() { return hs_positionOf(hs_storedReceiver()); }
+
+// The normal of the facet's visible side in world axes; 0 where none is stored.
+HS_HIGHP vec3 hs_facetOf(HS_HIGHP vec4 stored) {
+  HS_HIGHP float code = floor(stored.a * 255.0 + 0.5) - 1.0;
+  HS_HIGHP float row = floor((code + 0.5) / 15.0);
+  HS_HIGHP vec2 side = vec2(code - 15.0 * row, row) / vec2(7.0, 7.5) - 1.0;
+  HS_HIGHP vec3 n = vec3(side, 1.0 - abs(side.x) - abs(side.y));
+  if (n.z < 0.0) n.xy = (1.0 - abs(side.yx)) * vec2(side.x < 0.0 ? -1.0 : 1.0, side.y < 0.0 ? -1.0 : 1.0);
+  return code < 0.0 || code > 239.5 ? vec3(0.0) : normalize(n);
 }

@@ -3,10 +3,41 @@
 #include "techniques/receiver_depth/receiver_depth.hpp"
 
 #include <algorithm>
+#include <glm/gtc/matrix_inverse.hpp>
 
 namespace halfshadow::techniques {
 namespace {
-constexpr const char* kName = "receiver depth";
+/// Without facets; with planes of facets from the facet stream; and of receivers that cast, with codes of
+/// where these face, by derivatives or by the stream.
+struct DepthPrograms {
+  gl::Program* plain = nullptr;
+  gl::Program* planes = nullptr;
+  gl::Program* codes = nullptr;
+  gl::Program* planesAndCodes = nullptr;
+  gl::Program* of(const DrawItem& item) const {
+    const bool stream = planes != nullptr && item.mesh->hasFacetStream();
+    if (item.casts && planesAndCodes != nullptr) return stream ? planesAndCodes : codes;
+    return stream ? planes : plain;
+  }
+};
+
+Result<DepthPrograms> depthPrograms(const LightFrame& frame, ReceiverAlpha alpha) {
+  DepthPrograms programs;
+  const auto link = [&](std::vector<std::string> defines, gl::Program*& program) -> Status {
+    auto linked = frame.programs.get({"receiver_depth.vert", "receiver_depth.frag", std::move(defines)});
+    if (!linked) return linked.error();
+    program = *linked;
+    return {};
+  };
+  if (Status s = link({}, programs.plain); !s) return s.error();
+  if (alpha == ReceiverAlpha::one) return programs;
+  if (Status s = link({"HS_FACET_NORMAL"}, programs.planes); !s) return s.error();
+  if (Status s = link({"HS_FACETS", "HS_FACET_NORMAL"}, programs.planesAndCodes); !s) return s.error();
+  if (!needsFacetStream(frame.capabilities)) {
+    if (Status s = link({"HS_FACETS"}, programs.codes); !s) return s.error();
+  }
+  return programs;
+}
 
 glm::dvec4 row(const glm::dmat4& m, int index) {
   return {m[0][index], m[1][index], m[2][index], m[3][index]};
@@ -29,9 +60,44 @@ framegraph::ResourceId findResource(const framegraph::Graph& graph, const std::s
   }
   return {};
 }
+void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs, const ReceiverDepth& depth,
+                const View& view, std::span<const DrawItem> items) {
+  gl::Encoder& encoder = context.encoder;
+  gl::Context& gl = encoder.context();
+  // Unit scale keeps single precision in range for tiny and huge worlds.
+  const double scale = 1.0 / depth.farthest;
+  const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(scale), view.eyeWorld);
+  const glm::mat3 pixelRay(glm::dmat3(rays.rayX, rays.rayY, rays.rayOrigin));
+  gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
+  for (const DrawItem& item : items) {
+    gl::Program& program = *programs.of(item);
+    const bool stream = &program == programs.planes || &program == programs.planesAndCodes;
+    encoder.useProgram(program);
+    program.set(gl, "u_inverseFarthest", static_cast<float>(scale));
+    program.set(gl, "u_clipFromObject", glm::mat4(depth.clipFromWorld * item.worldFromObject));
+    if (&program != programs.plain) {
+      glm::dmat4 relative = item.worldFromObject;
+      relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
+      for (int column = 0; column < 4; ++column) {
+        relative[column] = glm::dvec4(scale * glm::dvec3(relative[column]), relative[column].w);
+      }
+      program.set(gl, "u_relativeFromObject", glm::mat4(relative));
+    }
+    if (stream) {
+      glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(item.worldFromObject));
+      normals /=
+          std::max(glm::length(normals[0]) + glm::length(normals[1]) + glm::length(normals[2]), 1e-300);
+      program.set(gl, "u_worldNormalFromObject", glm::mat3(normals));
+      program.set(gl, "u_pixelRay", pixelRay);
+    }
+    state.cull = hiddenFaces(item, view.eyeWorld);
+    item.mesh->draw(encoder, state, stream ? GpuMesh::Streams::facet : GpuMesh::Streams::positions);
+  }
+}
 }  // namespace
 
-Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame) {
+Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha) {
+  const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";
   ReceiverDepth depth;
   depth.clipFromWorld = withoutFarPlane(frame.view.clipFromWorld);
   const glm::dvec4 w = row(frame.view.clipFromWorld, 3);
@@ -41,36 +107,25 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame) {
       depth.farthest = std::max(depth.farthest, glm::dot(w, glm::dvec4(corner, 1.0)) * (1.0 + 1e-6));
     }
   }
-  depth.packed = findResource(frame.graph, kName);
-  depth.depthTest = findResource(frame.graph, std::string(kName) + " test");
+  depth.packed = findResource(frame.graph, name);
+  depth.depthTest = findResource(frame.graph, name + " test");
   if (depth.packed.valid()) return depth;
 
-  auto program = frame.programs.get({"receiver_depth.vert", "receiver_depth.frag", {}});
-  if (!program) return program.error();
+  auto programs = depthPrograms(frame, alpha);
+  if (!programs) return programs.error();
   const int width = frame.view.width, height = frame.view.height;
-  depth.packed = frame.graph.addResource({.name = kName, .width = width, .height = height});
-  depth.depthTest = frame.graph.addResource({.name = std::string(kName) + " test",
+  depth.packed = frame.graph.addResource({.name = name, .width = width, .height = height});
+  depth.depthTest = frame.graph.addResource({.name = name + " test",
                                              .width = width,
                                              .height = height,
                                              .format = framegraph::Format::depth24,
                                              .storage = framegraph::Storage::renderbuffer});
-  framegraph::PassDesc pass{.name = kName, .stage = framegraph::PassStage::receiverPrepass};
+  framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
-  pass.execute = [program = *program, depth, &view = frame.view,
+  pass.execute = [programs = *programs, depth, &view = frame.view,
                   items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
-                     framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    encoder.useProgram(*program);
-    program->set(encoder.context(), "u_inverseFarthest", static_cast<float>(1.0 / depth.farthest));
-    gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
-    for (const DrawItem& item : items) {
-      state.cull = hiddenFaces(item, view.eyeWorld);
-      program->set(encoder.context(), "u_clipFromObject",
-                   glm::mat4(depth.clipFromWorld * item.worldFromObject));
-      item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
-    }
-  };
+                     framegraph::PassContext& context) { drawDepths(context, programs, depth, view, items); };
   frame.graph.addPass(std::move(pass));
   return depth;
 }

@@ -10,7 +10,7 @@
 namespace halfshadow::techniques {
 
 struct ReceiverDepth {
-  /// RGB: distance along the view axis / `farthest`, 24 bits; A: 1 where there is a receiver.
+  /// RGB: distance along the view axis / `farthest`, 24 bits; A: not 0 where there is a receiver.
   framegraph::ResourceId packed;
   /// Renderbuffer for depth tests against receivers: attach with InitialContent::keep.
   framegraph::ResourceId depthTest;
@@ -20,8 +20,15 @@ struct ReceiverDepth {
   double farthest = 1.0;  ///< world length of the stored 1
 };
 
+/// What alpha holds.
+enum class ReceiverAlpha {
+  one,
+  facets  ///< of receivers that cast, where their facets face: hs_facetOf(). Places are those of facets'
+          ///< planes
+};
+
 /// Declares the pass, or finds the one that an earlier light declared. Errors: shaderFailed.
-Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame);
+Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha = ReceiverAlpha::one);
 
 /// A pixel's place in the coordinates (a, b, h) of a light is
 /// eye + distance · (rayOrigin + x · rayX + y · rayY), x and y its window coordinates, distance what is
