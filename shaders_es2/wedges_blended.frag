@@ -6,6 +6,7 @@
 #include "tap_count.glsl"
 #include "vbuffer_edges.glsl"
 #include "vbuffer_merge.glsl"
+#include "list_vertices.glsl"
 #define HS_SUB_LIGHTS 1.0
 #include "caster_lists.glsl"
 

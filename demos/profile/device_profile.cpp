@@ -9,6 +9,7 @@
 namespace halfshadow::profile {
 namespace {
 constexpr std::array<const char*, 3> kSkips = {"branch", "loop", "stencil"};
+constexpr std::array<const char*, 3> kRoutes = {"gather", "scatter", "fetch"};
 /// The setting's two values first.
 constexpr std::array<const char*, 3> kPrefilters = {"nbuffer", "sat", "mipmap"};
 
@@ -91,6 +92,38 @@ Status addPrefilter(measure::EngineSession& session, const scene::SceneDescripti
                                                 milliseconds((*times)[best].frame.medianMs) + " ms"}});
   return {};
 }
+
+/// The same for the route of wedges-cells: unchanged frames, since gathering keeps its lists and what moves
+/// differs from host to host.
+Status addWedgeRoute(measure::EngineSession& session, const scene::SceneDescription& scene,
+                     const InterleavedOptions& options, measure::Json& profile) {
+  std::vector<measure::Configuration> configurations;
+  for (const char* route : kRoutes)
+    configurations.push_back({"wedges-cells", {{"wedges-cells.route", route}}});
+  const auto times = interleavedTimes(session, scene, configurations, options);
+  if (!times) return times.error();
+  if (!times->front().supported) return {};
+  measure::Json measured;
+  std::string list;
+  std::size_t best = 0;
+  for (std::size_t i = 0; i < kRoutes.size(); ++i) {
+    const FrameTimes& t = (*times)[i];
+    measured[kRoutes[i]] = t.frameStatic.medianMs;
+    list += (i ? ", " : "") + std::string(kRoutes[i]) + " " + milliseconds(t.frameStatic.medianMs) + " (" +
+            milliseconds(t.frame.medianMs) + ")";
+    if (t.frameStatic.medianMs < (*times)[best].frameStatic.medianMs) best = i;
+  }
+  profile["choices"].push_back(
+      {{"setting", "wedges-cells.route"},
+       {"value", kRoutes[best]},
+       {"ms", measured},
+       {"reason", "unchanged frames (with a moving light), " + conditions(options) + list + " ms"}});
+  profile["settings"].push_back({{"key", "wedge_route"},
+                                 {"value", kRoutes[best]},
+                                 {"reason", "least time of an unchanged frame: " +
+                                                milliseconds((*times)[best].frameStatic.medianMs) + " ms"}});
+  return {};
+}
 }  // namespace
 
 Result<measure::Json> deviceProfile(measure::EngineSession& session, const scene::SceneDescription& scene,
@@ -98,7 +131,7 @@ Result<measure::Json> deviceProfile(measure::EngineSession& session, const scene
   measure::Json profile{{"driver", measure::driverJson(session.engine().driver())},
                         {"settings", measure::Json::array()},
                         {"choices", measure::Json::array()}};
-  for (const auto add : {addFilterSkip, addPrefilter}) {
+  for (const auto add : {addFilterSkip, addPrefilter, addWedgeRoute}) {
     if (Status status = add(session, scene, options, profile); !status) return status.error();
   }
   return profile;

@@ -108,6 +108,8 @@ struct Family {
   /// its allowance: where casters stand alone (measured: .0129, .0125, …) and where penumbrae meet (measured:
   /// .055 for sums, .022 for products), each rounded up.
   double alone, overlapping;
+  std::vector<Setting> settings{};
+  Configuration configuration() const { return {id, settings}; }
 };
 void PrintTo(const Family& family, std::ostream* stream) {
   *stream << family.id;
@@ -115,7 +117,8 @@ void PrintTo(const Family& family, std::ostream* stream) {
 const Family kFamilies[] = {{"wedges", 0.015, 0.06},
                             {"wedges-probabilistic", 0.015, 0.025},
                             {"wedges-blended", 0.015, 0.015},
-                            {"wedges-cells", 0.015, 0.01}};
+                            {"wedges-cells", 0.015, 0.01},
+                            {"wedges-cells", 0.015, 0.01, {{"wedges-cells.route", "scatter"}}}};
 
 void save(const std::string& name, const StressTruth& truth, const std::vector<float>& actual) {
   const std::filesystem::path folder = std::filesystem::path(HALFSHADOW_TEST_OUTPUT_DIR);
@@ -156,7 +159,7 @@ TEST_P(WedgesStress, NoSpeckleAndItsUsualError) {
     renderer().load(stress.scene);
     renderer().desc().target.width = kStressWidth;
     renderer().desc().target.height = kStressHeight;
-    const std::vector<float> actual = renderer().render(Configuration{GetParam().id}).visibility();
+    const std::vector<float> actual = renderer().render(GetParam().configuration()).visibility();
     double ground = 0.0, casters = 0.0;
     int groundPixels = 0, casterPixels = 0;
     for (std::size_t i = 0; i < kStressPixels; ++i) {
@@ -184,13 +187,14 @@ TEST_P(WedgesStress, ClosedCasterAroundTheLightShadowsEverythingOutside) {
   std::string reason;
   if (!supports(GetParam().id, reason)) GTEST_SKIP() << GetParam().id << ": " << reason;
   renderer().load(lampInABall());
-  const Image image = renderer().render(Configuration{GetParam().id});
+  const Image image = renderer().render(GetParam().configuration());
   // The camera looks down at the ground alone.
   EXPECT_EQ(std::ranges::count_if(image.visibility(), [](float v) { return v > 0.0f; }), 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Techniques, WedgesStress, testing::ValuesIn(kFamilies), [](const auto& tested) {
   std::string name = tested.param.id;
+  for (const Setting& setting : tested.param.settings) name += "_" + setting.value;
   std::ranges::replace(name, '-', '_');
   return name;
 });

@@ -53,7 +53,14 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
        0,
        {"nbuffer", "sat"},
        "what occlusion-textures.filter=auto means: the cheaper of the two accurate prefilters; device "
-       "profiles set it"}};
+       "profiles set it"},
+      {"wedge_route",
+       SettingType::choice,
+       "gather",
+       0,
+       0,
+       {"gather", "scatter", "fetch"},
+       "what wedges-cells.route=auto means; device profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }

@@ -49,9 +49,12 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"fullscreen.vert", "width_finish.frag", {}},
       {"volume.vert", "volume.frag", {}},
       {"fullscreen.vert", "volume.frag", {}},
-      {"receiver_depth.vert", "receiver_depth.frag", {}},
+      {"receiver_depth.vert", "receiver_depth.frag", {"HS_FACETS", "HS_FACET_NORMAL"}},
       {"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
       {"fullscreen.vert", "wedge_merge.frag", {}},
+      {"caster_volume.vert",
+       "caster_cells.frag",
+       {"HS_CELLS", "HS_UPPER_CELLS", "HS_CASTING_RECEIVER", "HS_USE_FETCH"}},
       receiver("none.frag", {}),
       receiver("hard.frag", {kDepth, kMapReceiver, {"HS_COUNT_SHADOWED"}}),
       receiver("occlusion_textures.frag",
@@ -80,6 +83,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       receiver("screen_visibility.frag", {}),
       receiver("wedges_blended.frag", {kMapReceiver, kTwoDraws, {"HS_CENTRES", "HS_CASTING_RECEIVER"}}),
       receiver("screen_wedges.frag", {{"HS_WEDGE_SUMS"}}),
+      receiver("screen_cells.frag", {{"HS_CELL_TARGETS"}}),
       receiver("shade_lights.frag", {}),
   };
 }

@@ -5,9 +5,35 @@
 #include <map>
 
 #include "techniques/caster_lists/light_lists.hpp"
+#include "techniques/wedges_cells/cell_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
+enum class Route { gather, scatter, fetch };
+
+/// What this device can do of what is asked for. Errors: none; what is missing is noted.
+Route routeOf(const LightFrame& frame) {
+  std::string asked = frame.settings.choice("wedges-cells.route");
+  if (asked == "auto") asked = frame.settings.choice("wedge_route");
+  if (asked == "gather") return Route::gather;
+  const auto instead = [&](Route route, const std::string& why) {
+    frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " route " + asked, why);
+    return route;
+  };
+  if (!frame.capabilities.has(gl::Capability::highp)) {
+    return instead(Route::gather, "a receiver's place needs highp in fragment shaders: cells are gathered");
+  }
+  // Eight targets and a base colour.
+  if (frame.settings.choice("wedges-cells.bytes") == "32" &&
+      frame.capabilities.limits.fragmentTextureUnits < 9) {
+    return instead(Route::gather, "32 cells need 9 texture units: cells are gathered");
+  }
+  if (asked == "fetch" && !frame.capabilities.has(gl::Capability::framebufferFetch)) {
+    return instead(Route::scatter, "no framebuffer fetch here: cells are multiplied by blending");
+  }
+  return asked == "fetch" ? Route::fetch : Route::scatter;
+}
+
 class WedgesCells final : public Technique {
  public:
   const TechniqueInfo& info() const override {
@@ -25,31 +51,55 @@ class WedgesCells final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override {
-    return {{"wedges-cells.bytes",
-             SettingType::choice,
-             "16",
-             0,
-             0,
-             {"4", "16", "32"},
-             "light cells, one byte's worth each: 4 sub-lights of 1, 4 or 8 cells"},
-            {"wedges-cells.tiles",
-             SettingType::integer,
-             "128",
-             1,
-             kMaxTiles,
-             {},
-             "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
+    return {
+        {"wedges-cells.bytes",
+         SettingType::choice,
+         "16",
+         0,
+         0,
+         {"4", "16", "32"},
+         "light cells, one byte's worth each: 4 sub-lights of 1, 4 or 8 cells"},
+        {"wedges-cells.route",
+         SettingType::choice,
+         "auto",
+         0,
+         0,
+         {"auto", "gather", "scatter", "fetch"},
+         "gather: each receiver fragment walks the casters of its tile; scatter: each caster is drawn over "
+         "the receivers, its cells multiplied into targets by blending; fetch: the same by framebuffer "
+         "fetch; "
+         "auto: wedge_route, the device profile's choice"},
+        {"wedges-cells.tiles",
+         SettingType::integer,
+         "128",
+         1,
+         kMaxTiles,
+         {},
+         "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override;
-  void contextLost() override { lights_.clear(); }
+  void contextLost() override {
+    lists_.clear();
+    draws_.clear();
+  }
 
  private:
-  std::map<int, LightLists> lights_;
+  Result<ReceiverShading> gather(const LightFrame& frame);
+  std::map<int, LightLists> lists_;
+  std::map<int, CasterDraws> draws_;
 };
 
 Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
+  const Route route = routeOf(frame);
+  if (route == Route::gather) return gather(frame);
+  return declareCellTargets(frame, draws_[frame.lightIndex],
+                            std::stoi(frame.settings.choice("wedges-cells.bytes")),
+                            route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
+}
+
+Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
   static constexpr auto kQuarters = subLights();
-  LightLists& lists = lights_[frame.lightIndex];
+  LightLists& lists = lists_[frame.lightIndex];
   const ListRequest request{.subLights = kQuarters,
                             .edges = ListedEdges::covering,
                             .tiles = frame.settings.integer("wedges-cells.tiles"),

@@ -3,7 +3,7 @@
 /// @file
 /// Penumbrae from silhouettes with light cells: four sub-lights with silhouettes of their own, coverage of
 /// each cell exact per caster, product over casters. Gathered per receiver fragment from vertex lists per
-/// tile.
+/// tile, or scattered caster by caster into targets.
 #pragma once
 
 #include <memory>

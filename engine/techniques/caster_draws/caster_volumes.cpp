@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/caster_draws/caster_volumes.hpp"
+
+#include <algorithm>
+#include <tuple>
+
+namespace halfshadow::techniques {
+namespace {
+/// A receiver is behind the whole caster when its reciprocal height is this much smaller than that of the
+/// farthest vertex.
+constexpr float kBehind = 1e-3f;
+
+glm::dvec3 lightPoint(const glm::vec3& ti) {
+  const double h = 1.0 / static_cast<double>(ti.z);
+  return {static_cast<double>(ti.x) * h, static_cast<double>(ti.y) * h, h};
+}
+
+WedgeExtent extentOf(const CasterLoops& caster, const SubLight& light) {
+  const glm::dvec2 center(light.center), half(light.half);
+  WedgeExtent extent;
+  extent.lightLow = center - half;
+  extent.lightHigh = center + half;
+  for (const glm::vec3& point : caster.points) extent.include(lightPoint(point));
+  return extent;
+}
+
+/// Whole loops, each vertex and the first once more.
+std::uint32_t addList(const CasterLoops& caster, std::uint8_t subLight, CellLists& lists) {
+  TileList list{.first = static_cast<std::uint32_t>(lists.records.size()), .casters = 1};
+  for (const CasterLoops::Loop& loop : caster.loops) {
+    for (std::uint32_t k = 0; k <= loop.count; ++k) {
+      lists.records.push_back({.ti = caster.points[loop.first + k % loop.count],
+                               .subLight = subLight,
+                               .startsLoop = k == 0,
+                               .closesLoop = k == loop.count});
+    }
+  }
+  lists.records.back().end = CellRecord::End::caster;
+  list.count = static_cast<std::uint32_t>(lists.records.size()) - list.first;
+  lists.longestList = std::max(lists.longestList, list.count);
+  lists.tiles.push_back(list);
+  return static_cast<std::uint32_t>(lists.tiles.size() - 1);
+}
+
+class Collector {
+ public:
+  Collector(CasterVolumes& result, const VolumeReach& reach) : result_(result), reach_(reach) {}
+
+  void add(const SubLightLoops& loops, std::uint32_t subLight) {
+    for (const CasterLoops& caster : loops.casters) {
+      if (caster.loops.empty()) continue;
+      const float splitI = caster.low.z * (1.0f - kBehind);
+      CasterVolume volume{.subLight = subLight, .extent = extentOf(caster, loops.light), .splitI = splitI};
+      if (volume.extent.nearest >= reach_.end) continue;
+      // A little of both sides of the split, so that rounding leaves no receiver outside.
+      const double split = 1.0 / static_cast<double>(splitI), margin = 0.1 * kBehind * split;
+      volume.list = addList(caster, static_cast<std::uint8_t>(subLight), result_.lists);
+      addPart(volume, WedgePart::beside, volume.extent.nearest, split + margin);
+      if (caster.layerCount == 0) addPart(volume, WedgePart::beyond, split - margin, reach_.end);
+      for (std::uint32_t l = 0; l < caster.layerCount; ++l) {
+        const CasterLoops& layer = loops.layers[caster.firstLayer + l];
+        if (layer.loops.empty()) continue;
+        CasterVolume layerVolume{
+            .subLight = subLight, .extent = extentOf(layer, loops.light), .splitI = splitI};
+        layerVolume.list = addList(layer, static_cast<std::uint8_t>(subLight), result_.lists);
+        addPart(layerVolume, WedgePart::beyond, split - margin, reach_.end);
+      }
+    }
+  }
+
+ private:
+  void addPart(CasterVolume volume, WedgePart part, double from, double end) {
+    volume.part = part;
+    volume.from = from;
+    volume.end = std::min(end, reach_.end);
+    if (volume.from < volume.end) result_.volumes.push_back(volume);
+  }
+  CasterVolumes& result_;
+  VolumeReach reach_;
+};
+
+bool shareReceivers(const CasterVolume& a, const CasterVolume& b) {
+  // The two parts of one caster never answer for the same receiver.
+  if (a.part != b.part && a.splitI == b.splitI && a.list == b.list) return false;
+  return a.extent.meetsBetween(b.extent, std::max(a.from, b.from), std::min(a.end, b.end));
+}
+
+/// Each volume goes into the first batch where it meets no other.
+std::uint32_t assignBatches(std::span<CasterVolume> volumes) {
+  std::vector<std::vector<const CasterVolume*>> batches;
+  for (CasterVolume& volume : volumes) {
+    const auto fits = std::ranges::find_if(batches, [&](const std::vector<const CasterVolume*>& batch) {
+      return std::ranges::none_of(batch,
+                                  [&](const CasterVolume* other) { return shareReceivers(volume, *other); });
+    });
+    volume.batch = static_cast<std::uint32_t>(fits - batches.begin());
+    if (fits == batches.end()) batches.emplace_back();
+    batches[volume.batch].push_back(&volume);
+  }
+  return static_cast<std::uint32_t>(batches.size());
+}
+}  // namespace
+
+CasterVolumes casterVolumes(std::span<const SubLightLoops> subLights, const VolumeReach& reach,
+                            Batching batching) {
+  CasterVolumes result;
+  Collector collector(result, reach);
+  for (std::uint32_t s = 0; s < subLights.size(); ++s) {
+    const std::size_t first = result.volumes.size();
+    const bool enclosed = std::ranges::any_of(subLights[s].casters, &CasterLoops::enclosesLight);
+    result.lightEnclosed.push_back(enclosed);
+    if (enclosed) continue;
+    collector.add(subLights[s], s);
+    const std::span<CasterVolume> own = std::span(result.volumes).subspan(first);
+    if (own.empty()) continue;
+    const std::uint32_t batches = batching == Batching::disjoint ? assignBatches(own) : 1;
+    result.batchCount = std::max(result.batchCount, batches);
+    std::ranges::stable_sort(own, {}, [](const CasterVolume& v) { return std::tuple(v.batch, v.part); });
+  }
+  return result;
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/wedges_cells/cell_targets.hpp"
+
+#include "techniques/wedge_volumes/wedge_passes.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// A target and the draws into it.
+struct CellTarget {
+  framegraph::ResourceId image;
+  struct Draw {
+    std::uint32_t subLight = 0;
+    std::array<bool, 4> channels{true, true, true, true};
+  };
+  std::vector<Draw> draws;
+  bool upper = false;  ///< of eight cells, the upper four
+};
+
+std::vector<CellTarget> targetsOf(int cells) {
+  std::vector<CellTarget> targets;
+  if (cells == 4) {
+    targets.emplace_back();
+    for (std::uint32_t s = 0; s < kSubLights; ++s) {
+      CellTarget::Draw draw{.subLight = s, .channels = {}};
+      draw.channels[s] = true;
+      targets[0].draws.push_back(draw);
+    }
+    return targets;
+  }
+  for (std::uint32_t s = 0; s < kSubLights; ++s) {
+    for (int half = 0; half < cells / 16; ++half) {
+      targets.push_back({.image = {}, .draws = {{.subLight = s}}, .upper = half == 1});
+    }
+  }
+  return targets;
+}
+
+Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const ReceiverDepth& depth,
+                     const CellTarget& target, int cells, CellProduct product, const std::string& name) {
+  std::vector<std::string> defines = {"HS_CELLS " + std::to_string(cells)};
+  if (target.upper) defines.push_back("HS_UPPER_CELLS");
+  if (product == CellProduct::fetched) defines.push_back("HS_USE_FETCH");
+  auto programs = casterPrograms(frame, "caster_cells.frag", defines);
+  if (!programs) return programs.error();
+  framegraph::ClearValue lit;
+  for (const CellTarget::Draw& draw : target.draws) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (draw.channels[c]) lit.color[c] = draws.lightEnclosed(draw.subLight) ? 0.0f : 1.0f;
+    }
+  }
+  framegraph::PassDesc pass{.name = wedgePassName(frame, name),
+                            .stage = framegraph::PassStage::receiverPrepass,
+                            .reads = {depth.packed}};
+  pass.writes = {{.resource = target.image,
+                  .point = framegraph::AttachmentPoint::color,
+                  .initial = framegraph::InitialContent::clear,
+                  .clear = lit},
+                 {.resource = depth.depthTest,
+                  .point = framegraph::AttachmentPoint::depth,
+                  .initial = framegraph::InitialContent::keep}};
+  pass.execute = [programs = *programs, &draws, depth, &view = frame.view, list = target.draws,
+                  blend = product == CellProduct::blended ? kMultiply : gl::BlendState{}](
+                     framegraph::PassContext& context) {
+    for (const CellTarget::Draw& draw : list) {
+      draws.draw(context, programs, depth, view,
+                 {.subLight = draw.subLight, .blend = blend, .colorMask = draw.channels});
+    }
+  };
+  frame.graph.addPass(std::move(pass));
+  return {};
+}
+}  // namespace
+
+Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws& draws, int cells,
+                                           CellProduct product) {
+  static constexpr auto kQuarters = subLights();
+  static constexpr std::array<gl::UniformKey, 8> kSamplers = {"u_cells0", "u_cells1", "u_cells2", "u_cells3",
+                                                              "u_cells4", "u_cells5", "u_cells6", "u_cells7"};
+  if (Status s = draws.update(frame, kQuarters, Batching::none); !s) return s.error();
+  auto depth = declareReceiverDepth(frame, ReceiverAlpha::facets);
+  if (!depth) return depth.error();
+  std::vector<CellTarget> targets = targetsOf(cells);
+  ReceiverShading shading;
+  shading.fragmentFile = "screen_cells.frag";
+  shading.defines = {"HS_CELL_TARGETS " + std::to_string(targets.size())};
+  shading.forward = false;
+  for (std::size_t t = 0; t < targets.size(); ++t) {
+    const std::string name = "cells " + std::to_string(t);
+    targets[t].image = screenImage(frame, name);
+    if (Status s = declareTarget(frame, draws, *depth, targets[t], cells, product, name); !s) {
+      return s.error();
+    }
+    shading.textures.push_back({.sampler = kSamplers[t], .resource = targets[t].image});
+  }
+  return shading;
+}
+
+}  // namespace halfshadow::techniques

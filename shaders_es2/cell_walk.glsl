@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Adds the edges of silhouette loops to light cells, vertex by vertex. Needs cell_coverage.glsl and
+// list_vertices.glsl.
+struct HS_Walk {
+#ifdef HS_CASTING_RECEIVER
+  HS_HIGHP vec3 previous;
+  HS_HIGHP vec2 reached, firstReached;
+  HS_HIGHP float begun;
+#else
+  HS_HIGHP vec2 previous;
+#endif
+};
+
+void hs_startWalk(out HS_Walk walk) {
+#ifdef HS_CASTING_RECEIVER
+  walk.previous = vec3(0.0);
+  walk.reached = walk.firstReached = vec2(0.0);
+  walk.begun = 0.0;
+#else
+  walk.previous = vec2(0.0);
+#endif
+}
+
+// Where a vertex projects onto the light, relative to the sub-light's centre, in its half sides.
+HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
+  return 2.0 * hs_onLight(projected) - side;
+}
+
+// `projected`, `tags`: of hs_nextVertex().
+void hs_walk(inout HS_Walk walk, inout HS_Cells covered, HS_HIGHP vec3 projected, HS_Tags tags) {
+#ifdef HS_CASTING_RECEIVER
+  // Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
+  walk.begun *= 1.0 - tags.starts;
+  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - HS_NEAR, now = projected.z - HS_NEAR;
+  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < 1e-9 ? 1e-9 : before - now));
+  bool crosses = before * now < 0.0 && tags.starts < 0.5;
+  bool seen = max(before, now) > 0.0;
+  HS_HIGHP vec2 from = hs_onSubLight(before > 0.0 ? walk.previous : (crosses ? cut : projected), tags.side);
+  HS_HIGHP vec2 to = hs_onSubLight(now > 0.0 ? projected : cut, tags.side);
+  if (seen && walk.begun < 0.5) {
+    walk.firstReached = from;
+    walk.reached = from;
+    walk.begun = 1.0;
+  }
+  // An edge that starts a loop has no length: from = to.
+  hs_addFarChord(covered, walk.reached, from, seen ? 1.0 : 0.0);
+  hs_addEdge(covered, seen ? from : to, to);
+  walk.reached = seen ? to : walk.reached;
+  hs_addFarChord(covered, walk.reached, walk.firstReached, walk.begun * tags.closes);
+  walk.previous = projected;
+#else
+  HS_HIGHP vec2 point = hs_onSubLight(projected, tags.side);
+  hs_addEdge(covered, mix(walk.previous, point, tags.starts), point);
+  walk.previous = point;
+#endif
+}

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Visibility from light cells that casters left on the screen: their mean.
+#include "tap_count.glsl"
+uniform HS_HIGHP sampler2D u_cells0;
+#if HS_CELL_TARGETS >= 4
+uniform HS_HIGHP sampler2D u_cells1;
+uniform HS_HIGHP sampler2D u_cells2;
+uniform HS_HIGHP sampler2D u_cells3;
+#endif
+#if HS_CELL_TARGETS >= 8
+uniform HS_HIGHP sampler2D u_cells4;
+uniform HS_HIGHP sampler2D u_cells5;
+uniform HS_HIGHP sampler2D u_cells6;
+uniform HS_HIGHP sampler2D u_cells7;
+#endif
+uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
+float halfshadow_visibility() {
+  HS_COUNT(HS_CELL_TARGETS);
+  HS_HIGHP vec2 at = gl_FragCoord.xy * u_viewport.xy + u_viewport.zw;
+  HS_HIGHP vec4 sum = texture2D(u_cells0, at);
+#if HS_CELL_TARGETS >= 4
+  sum += texture2D(u_cells1, at) + texture2D(u_cells2, at) + texture2D(u_cells3, at);
+#endif
+#if HS_CELL_TARGETS >= 8
+  sum += texture2D(u_cells4, at) + texture2D(u_cells5, at) + texture2D(u_cells6, at) + texture2D(u_cells7, at);
+#endif
+  return dot(sum, vec4(0.25 / float(HS_CELL_TARGETS)));
+}
+#ifdef HS_SHADED
+#include "shade.glsl"
+#endif
+#include "receiver_main.glsl"
