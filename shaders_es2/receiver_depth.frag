@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Split into bytes by integer arithmetic and stored a quarter above the step, so that targets which round and
-// targets which truncate keep all bits that the arithmetic has. Alpha: 1, or where the facet faces, on its side towards
+// targets which truncate keep all bits that the arithmetic has. Alpha: a mark, or where the facet faces, on its side towards
 // the eye: a point of a grid of 15 x 16 over an octahedron, within 17 degrees.
 varying HS_HIGHP float v_distance;
 #ifdef HS_FACET_NORMAL
@@ -24,6 +24,8 @@ float hs_facetCode() {
   HS_HIGHP vec2 cell = floor((0.5 + 0.5 * side) * vec2(14.0, 15.0) + 0.5);
   return cell.x + 15.0 * cell.y + 1.0;
 }
+#else
+uniform HS_HIGHP float u_receiverMark;  // alpha, in 255ths
 #endif
 void main() {
   HS_HIGHP float along = v_distance;
@@ -42,7 +44,7 @@ void main() {
 #ifdef HS_FACETS
   float code = hs_facetCode();
 #else
-  float code = 254.75;
+  float code = u_receiverMark;
 #endif
   gl_FragColor = (vec4(min(high, 255.0), middle, low, code) + 0.25) / 255.0;
 }

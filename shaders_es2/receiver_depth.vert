@@ -16,8 +16,11 @@ varying highp vec4 v_facet;  // dot(xyz, relative) = w, towards the eye
 #elif defined(HS_FACETS)
 varying highp vec3 v_relative;
 #endif
+invariant gl_Position;
+
 void main() {
-  gl_Position = u_clipFromObject * vec4(a_position, 1.0);
+  highp vec4 position = vec4(a_position, 1.0);
+  gl_Position = u_clipFromObject * position;
   v_distance = gl_Position.w * u_inverseFarthest;
 #if defined(HS_FACETS) || defined(HS_FACET_NORMAL)
   highp vec3 relative = (u_relativeFromObject * vec4(a_position, 1.0)).xyz;

@@ -10,6 +10,8 @@ uniform HS_HIGHP vec4 u_receiverRayY;  // w: 1 / height
 HS_HIGHP vec4 hs_storedReceiver() {
   return texture2D(u_receiverDepth, gl_FragCoord.xy * vec2(u_receiverRayX.w, u_receiverRayY.w));
 }
+// 1: a receiver of few triangles, where alpha does not tell facets.
+HS_HIGHP float hs_markOf(HS_HIGHP vec4 stored) { return 1.0 - step(0.75, stored.a); }
 
 // Bytes as integers, then the distance in steps that every precision represents.
 HS_HIGHP vec3 hs_positionOf(HS_HIGHP vec4 stored) {

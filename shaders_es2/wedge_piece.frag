@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// One piece's coverage: added to sums, or, of a caster that is one piece, multiplied into the visibility.
+// One piece's coverage of the receiver that the depth texture tells.
 #include "receiver_position.glsl"
+#include "wedge_polygon.glsl"
 #include "wedge_piece.glsl"
 #include "wedge_sums.glsl"
-uniform HS_HIGHP vec4 u_wedgeSteps;  // x: steps of full coverage
+uniform HS_HIGHP vec4 u_wedgeSteps;  // x: steps of full coverage, y: 1 where receivers of few triangles are not asked
 void main() {
-  HS_HIGHP float coverage = hs_pieceCoverage(hs_receiverPosition());
-#ifdef HS_WEDGE_MULTIPLY
-  gl_FragColor = vec4((floor((1.0 - clamp(abs(coverage), 0.0, 1.0)) * 255.0 + 0.5) + 0.125) / 255.0);
-#else
-  gl_FragColor = hs_encodeCoverage(coverage, u_wedgeSteps.x);
-#endif
+  HS_HIGHP vec4 stored = hs_storedReceiver();
+  HS_HIGHP float coverage = hs_pieceCoverage(hs_positionOf(stored)) * (1.0 - u_wedgeSteps.y * hs_markOf(stored));
+  gl_FragColor = hs_encodePiece(coverage, u_wedgeSteps.x);
 }

@@ -13,3 +13,15 @@ HS_HIGHP float hs_decodeCoverage(HS_HIGHP vec4 sums, HS_HIGHP float steps) {
   HS_HIGHP vec4 bytes = floor(sums * 255.0 + 0.5);
   return (16.0 * (bytes.x - bytes.y) + bytes.z - bytes.w) / steps;
 }
+// What is left of the light, as a byte to multiply by.
+HS_HIGHP vec4 hs_encodeRest(HS_HIGHP float coverage) {
+  return vec4((floor((1.0 - clamp(abs(coverage), 0.0, 1.0)) * 255.0 + 0.5) + 0.125) / 255.0);
+}
+// A piece's coverage: added to sums, or, of a caster that is one piece, multiplied into the visibility.
+HS_HIGHP vec4 hs_encodePiece(HS_HIGHP float coverage, HS_HIGHP float steps) {
+#ifdef HS_WEDGE_MULTIPLY
+  return hs_encodeRest(coverage);
+#else
+  return hs_encodeCoverage(coverage, steps);
+#endif
+}

@@ -39,6 +39,8 @@ Result<DepthPrograms> depthPrograms(const LightFrame& frame, ReceiverAlpha alpha
   return programs;
 }
 
+constexpr std::uint32_t kFewTriangles = 256;
+
 glm::dvec4 row(const glm::dmat4& m, int index) {
   return {m[0][index], m[1][index], m[2][index], m[3][index]};
 }
@@ -68,6 +70,7 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
   const double scale = 1.0 / depth.farthest;
   const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(scale), view.eyeWorld);
   const glm::mat3 pixelRay(glm::dmat3(rays.rayX, rays.rayY, rays.rayOrigin));
+  const bool marked = programs.planes == nullptr;
   gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
   for (const DrawItem& item : items) {
     gl::Program& program = *programs.of(item);
@@ -75,6 +78,7 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
     encoder.useProgram(program);
     program.set(gl, "u_inverseFarthest", static_cast<float>(scale));
     program.set(gl, "u_clipFromObject", glm::mat4(depth.clipFromWorld * item.worldFromObject));
+    program.set(gl, "u_receiverMark", marked && hasFewTriangles(item) ? 128.0f : 254.75f);
     if (&program != programs.plain) {
       glm::dmat4 relative = item.worldFromObject;
       relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
@@ -95,6 +99,10 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
   }
 }
 }  // namespace
+
+bool hasFewTriangles(const DrawItem& receiver) {
+  return receiver.sourceMesh->triangleCount() <= kFewTriangles;
+}
 
 Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha) {
   const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";

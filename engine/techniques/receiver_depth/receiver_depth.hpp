@@ -9,8 +9,11 @@
 
 namespace halfshadow::techniques {
 
+/// Receivers that a technique may treat triangle by triangle on the CPU, a floor for instance.
+bool hasFewTriangles(const DrawItem& receiver);
+
 struct ReceiverDepth {
-  /// RGB: distance along the view axis / `farthest`, 24 bits; A: not 0 where there is a receiver.
+  /// RGB: distance along the view axis / `farthest`, 24 bits; A: ReceiverAlpha, 0 where there is no receiver.
   framegraph::ResourceId packed;
   /// Renderbuffer for depth tests against receivers: attach with InitialContent::keep.
   framegraph::ResourceId depthTest;
@@ -22,7 +25,7 @@ struct ReceiverDepth {
 
 /// What alpha holds.
 enum class ReceiverAlpha {
-  one,
+  one,    ///< 1, or 1/2 where the receiver has few triangles
   facets  ///< of receivers that cast, where their facets face: hs_facetOf(). Places are those of facets'
           ///< planes
 };

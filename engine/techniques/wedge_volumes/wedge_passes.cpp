@@ -56,7 +56,8 @@ void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs,
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
     gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
     context.encoder.useProgram(program);
-    program.set(context.encoder.context(), "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
+    program.set(context.encoder.context(), "u_wedgeSteps",
+                glm::vec4(steps, wedges.volumes->trimmed ? 1.0f : 0.0f, 0, 0));
     drawWedgeVolumes(context, program, *wedges.volumes, wedges.depth, view, casters, part, {.blend = blend});
   }
 }

@@ -9,11 +9,11 @@
 
 #include "planner/frame_planner.hpp"
 #include "techniques/wedge_volumes/volume_boxes.hpp"
+#include "techniques/wedge_volumes/wedge_bounds.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-/// Volumes end a little behind the farthest receiver, so that it lies inside whatever rounding does.
-constexpr double kFarthest = 1.01;
+constexpr double kFarthest = kFarthestHeight, kBeyondReceiver = kFarthestHeight - 1.0;
 /// Nearest height of a caster, relative to the farthest receiver's: what reaches behind the light is cut
 /// here.
 constexpr double kMinHeight = 1e-3;
@@ -56,10 +56,11 @@ double farthestReceiver(const LightFrame& frame) {
 }
 
 std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& unit, double allNear,
-                                 double reach) {
+                                 double reach, std::span<const double> ends) {
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
-  for (const WedgePiece& piece : pieces.pieces) {
+  for (std::size_t p = 0; p < pieces.pieces.size(); ++p) {
+    const WedgePiece& piece = pieces.pieces[p];
     Vertex vertex;
     const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
@@ -73,8 +74,15 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
       vertex.a[i] = relative.x, vertex.b[i] = relative.y, vertex.h[i] = relative.z;
     }
     const double nearest = piece.extent.nearest;
-    const double last = std::min(piece.extent.farthest + allNear, kFarthest);
-    for (const double h : {nearest, last, kFarthest}) {
+    const double end = ends.empty() ? kFarthest : std::min(ends[p] + kBeyondReceiver, kFarthest);
+    if (end <= nearest) {
+      // No receiver: a volume without sides.
+      vertex.corner = glm::dvec3(piece.extent.low(nearest), nearest);
+      stream.insert(stream.end(), kCorners, vertex);
+      continue;
+    }
+    const double last = std::min(piece.extent.farthest + allNear, end);
+    for (const double h : {nearest, last, end}) {
       for (const glm::dvec3& corner : volumeCorners(piece.extent, h, {.end = kFarthest, .sideways = reach})) {
         vertex.corner = corner;
         stream.push_back(vertex);
@@ -116,7 +124,7 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
 }
 }  // namespace
 
-Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
+const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
   const double farthest = std::max(farthestReceiver(frame), 1e-9);
   const scene::LightPlane plane(frame.light, farthest, kMinHalfLength * farthest);
@@ -133,25 +141,37 @@ Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
   makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
-  if (!volumes.pieces.pieces.empty()) {
-    const bool highp = frame.capabilities.has(gl::Capability::highp);
-    const WedgePieces& pieces = volumes.pieces;
-    volumes.unit =
-        glm::dvec3(pieces.stepAB, pieces.stepAB, pieces.stepH) * (highp ? 1.0 : kStepsWithoutHighp);
-    const std::vector<Vertex> stream =
-        vertexStream(pieces, volumes.unit, highp ? kAllNear : kAllNearWithoutHighp, reach);
-    if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
-                                 std::as_bytes(std::span(stream)));
-        !s) {
-      return s.error();
-    }
-    if (Status s =
-            uploadVolumeIndices(frame.context, volumes.indices, volumes.pieces.pieces.size(), kCorners);
-        !s)
-      return s.error();
-  }
   volumes.contentKey = key;
   return &volumes;
+}
+
+Status WedgeVolumeCache::upload(const LightFrame& frame, std::span<const double> ends,
+                                std::uint64_t endsKey) {
+  WedgeVolumes& volumes = volumes_[frame.lightIndex];
+  const std::uint64_t key = planner::combineKeys(volumes.contentKey, endsKey);
+  volumes.trimmed = !ends.empty();
+  if (volumes.streamKey == key || volumes.pieces.pieces.empty()) return {};
+  volumes.streamKey = 0;
+  const bool highp = frame.capabilities.has(gl::Capability::highp);
+  const WedgePieces& pieces = volumes.pieces;
+  volumes.unit = glm::dvec3(pieces.stepAB, pieces.stepAB, pieces.stepH) * (highp ? 1.0 : kStepsWithoutHighp);
+  const std::vector<Vertex> stream =
+      vertexStream(pieces, volumes.unit, highp ? kAllNear : kAllNearWithoutHighp, volumes.reach, ends);
+  if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
+                               std::as_bytes(std::span(stream)));
+      !s) {
+    return s;
+  }
+  if (Status s = uploadVolumeIndices(frame.context, volumes.indices, pieces.pieces.size(), kCorners); !s)
+    return s;
+  volumes.streamKey = key;
+  return {};
+}
+
+Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
+  const WedgeVolumes* volumes = updatePieces(frame);
+  if (Status s = upload(frame, {}, 0); !s) return s.error();
+  return volumes;
 }
 
 void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
@@ -160,24 +180,21 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   gl::Encoder& encoder = context.encoder;
   const scene::LightPlane& plane = volumes.plane;
   bindReceiverPosition(context, program, depth, receiverRays(view, depth, plane.axes, plane.centerWorld));
-  const glm::dvec3 alongNormal = plane.heightUnit * plane.normal;
-  const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
-                                  glm::dvec4(alongNormal, 0), glm::dvec4(plane.centerWorld, 1));
-  program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
+  program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight(plane)));
   const glm::dvec3& unit = volumes.unit;
   program.set(encoder.context(), "u_pieceGrid", glm::vec4(unit.x, unit.z, 1.0 / unit.x, 1.0 / unit.z));
   const auto hull = eyeHull(view, plane);
   const VolumeReach reach{.end = kFarthest, .sideways = volumes.reach};
-  if (part == WedgePart::beside) {
-    // Few receivers lie in these thin volumes, and most of the screen behind them: the farther sides reject
-    // it.
+  const bool small = part == WedgePart::beside || volumes.trimmed;
+  if (small) {
+    // Few receivers lie in these volumes, and most of the screen behind them: the farther sides reject it.
     state.cull = gl::Cull::front;
     state.depth = {.test = gl::Compare::gequal};
   }
   const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
     // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
     // those that face away stand behind it.
-    if (part == WedgePart::beyond) {
+    if (!small) {
       state.cull = outside ? gl::Cull::back : gl::Cull::front;
       state.depth = {.test = outside ? gl::Compare::lequal : gl::Compare::gequal};
     }

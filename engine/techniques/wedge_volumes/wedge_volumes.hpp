@@ -11,6 +11,9 @@
 
 namespace halfshadow::techniques {
 
+/// Volumes end a little behind the farthest receiver, so that it lies inside whatever rounding does.
+inline constexpr double kFarthestHeight = 1.01;
+
 /// The wedges of one light. Heights are in units of the farthest receiver's distance from the light's plane.
 struct WedgeVolumes {
   std::uint64_t contentKey = 0;
@@ -20,6 +23,8 @@ struct WedgeVolumes {
   WedgePieces pieces;
   bool lightEnclosed = false;  ///< a closed caster stands around the light's centre: nothing outside is lit
   glm::dvec3 unit{1.0};  ///< of a, b and h in the vertex stream: the grid's steps where fragments have highp
+  std::uint64_t streamKey = 0;  ///< of what the buffers hold
+  bool trimmed = false;         ///< volumes end before the farthest receiver
   gl::Buffer vertices, indices;
 };
 
@@ -40,6 +45,11 @@ class WedgeVolumeCache {
   /// The wedges for this frame, uploaded again only when light, casters or the receivers' reach changed. The
   /// pointer stays valid until contextLost(). Errors: outOfMemory.
   Result<const WedgeVolumes*> update(const LightFrame& frame);
+  /// The same in two steps. First what needs no GPU:
+  const WedgeVolumes* updatePieces(const LightFrame& frame);
+  /// then the buffers. `ends`, one a piece: the largest height of a receiver that its volume must hold, 0 =
+  /// none; empty: all receivers. `endsKey` changes with them. Errors: outOfMemory.
+  Status upload(const LightFrame& frame, std::span<const double> ends, std::uint64_t endsKey);
   void contextLost() { volumes_.clear(); }
 
  private:

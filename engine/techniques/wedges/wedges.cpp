@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
-#include "techniques/wedge_volumes/wedge_passes.hpp"
+#include "techniques/wedges/wedge_route.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -10,25 +10,36 @@ using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
 
-/// Shared by both: wedges that live on between frames.
-class WedgeTechnique : public Technique {
- public:
-  void contextLost() override { cache_.contextLost(); }
+std::vector<WedgeGroup> allTogether(const WedgePieces& pieces) {
+  return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
+}
 
- protected:
-  Result<Wedges> wedgesOf(const LightFrame& frame) {
-    auto volumes = cache_.update(frame);
-    if (!volumes) return volumes.error();
-    auto depth = declareReceiverDepth(frame);
-    if (!depth) return depth.error();
-    return Wedges{*volumes, *depth};
+WedgeGroup castersWhere(const WedgePieces& pieces, auto predicate) {
+  WedgeGroup group;
+  for (std::uint32_t i = 0; i < pieces.casters.size(); ++i) {
+    if (!predicate(pieces.casters[i])) continue;
+    if (!group.empty() && group.back().first + group.back().count == i) {
+      ++group.back().count;
+    } else {
+      group.push_back({i, 1});
+    }
   }
+  return group;
+}
 
- private:
-  WedgeVolumeCache cache_;
-};
+/// Casters that are one piece, which need no sum, then the batches of the others.
+std::vector<WedgeGroup> wholeThenBatches(const WedgePieces& pieces) {
+  std::vector<WedgeGroup> groups;
+  groups.push_back(castersWhere(pieces, [](const WedgeCaster& caster) { return caster.pieceCount == 1; }));
+  for (std::uint32_t batch = 0; batch < pieces.batchCount; ++batch) {
+    groups.push_back(castersWhere(pieces, [batch](const WedgeCaster& caster) {
+      return caster.pieceCount > 1 && caster.batch == batch;
+    }));
+  }
+  return groups;
+}
 
-class AdditiveWedges final : public WedgeTechnique {
+class AdditiveWedges final : public Technique {
  public:
   const TechniqueInfo& info() const override {
     static const TechniqueInfo info{
@@ -41,14 +52,23 @@ class AdditiveWedges final : public WedgeTechnique {
             "light's centre; a caster's shadow on itself is unreliable unless it is convex"};
     return info;
   }
+  std::vector<SettingInfo> settings() const override { return {routeSetting("wedges.route")}; }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto wedges = wedgesOf(frame);
-    if (!wedges) return wedges.error();
-    return declareAdditiveWedges(frame, *wedges);
+    auto route = routes_.choose(frame, "wedges.route", allTogether);
+    if (!route) return route.error();
+    const ResourceId sums = screenImage(frame, "wedge sums");
+    if (Status s = route->declareGroup(frame, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {}); !s)
+      return s.error();
+    // Nothing drawn reads as visibility 0.
+    return screenShading(sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
   }
+  void contextLost() override { routes_.contextLost(); }
+
+ private:
+  WedgeRoutes routes_;
 };
 
-class ProbabilisticWedges final : public WedgeTechnique {
+class ProbabilisticWedges final : public Technique {
  public:
   const TechniqueInfo& info() const override {
     static const TechniqueInfo info{
@@ -61,90 +81,72 @@ class ProbabilisticWedges final : public WedgeTechnique {
             "are those of the light's centre; a caster's shadow on itself is unreliable unless it is convex"};
     return info;
   }
+  std::vector<SettingInfo> settings() const override { return {routeSetting("wedges-probabilistic.route")}; }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto wedges = wedgesOf(frame);
-    if (!wedges) return wedges.error();
+    auto route = routes_.choose(frame, "wedges-probabilistic.route", wholeThenBatches);
+    if (!route) return route.error();
+    const WedgeVolumes& volumes = route->volumes();
     const ResourceId visibility = screenImage(frame, "wedge visibility");
-    if (Status s = declareWholeCasters(frame, *wedges, visibility); !s) return s.error();
-    if (wedges->volumes->pieces.batchCount > 0) {
+    const GroupTarget whole{
+        .color = visibility, .clear = volumes.lightEnclosed ? 0.0f : 1.0f, .mix = WedgeMix::multiply};
+    if (Status s = route->declareGroup(frame, 0, "wedges of whole casters", whole, {}); !s) return s.error();
+    if (volumes.pieces.batchCount > 0 && !volumes.lightEnclosed) {
       const ResourceId sums = screenImage(frame, "wedge sums");
-      for (std::uint32_t batch = 0; batch < wedges->volumes->pieces.batchCount; ++batch) {
-        if (Status s = declareBatch(frame, *wedges, batch, sums, visibility); !s) return s.error();
+      for (std::uint32_t batch = 0; batch < volumes.pieces.batchCount; ++batch) {
+        const char* again = batch > 0 ? "casters of different batches may shadow the same receiver" : "";
+        if (Status s = route->declareGroup(frame, batch + 1, "wedges of batch " + std::to_string(batch),
+                                           {.color = sums, .steps = kStepsOfOne}, again);
+            !s) {
+          return s.error();
+        }
+        if (Status s = declareMerge(frame, volumes, batch, sums, visibility); !s) return s.error();
       }
     }
     return screenShading(visibility, 0.0f);
   }
+  void contextLost() override { routes_.contextLost(); }
 
  private:
-  static std::vector<CasterRange> castersWhere(const WedgePieces& pieces, auto predicate) {
-    std::vector<CasterRange> ranges;
-    for (std::uint32_t i = 0; i < pieces.casters.size(); ++i) {
-      if (!predicate(pieces.casters[i])) continue;
-      if (!ranges.empty() && ranges.back().first + ranges.back().count == i) {
-        ++ranges.back().count;
-      } else {
-        ranges.push_back({i, 1});
-      }
+  /// What the batch's casters can shadow on the screen.
+  static std::vector<gl::Rect> touched(const LightFrame& frame, const WedgeVolumes& volumes,
+                                       std::uint32_t batch) {
+    const View& view = frame.view;
+    const glm::dmat4 clipFromLight = view.clipFromWorld * worldFromLight(volumes.plane);
+    std::vector<gl::Rect> rects;
+    for (const WedgeCaster& caster : volumes.pieces.casters) {
+      if (caster.pieceCount < 2 || caster.batch != batch) continue;
+      const auto corners = volumeHull(caster.extent, caster.extent.nearest, kFarthestHeight);
+      if (const auto rect = screenBounds(corners, clipFromLight, view.width, view.height))
+        rects.push_back(*rect);
     }
-    return ranges;
+    return disjointRects(std::move(rects));
   }
 
-  /// Casters that are one piece need no sum: blending multiplies them.
-  static Status declareWholeCasters(const LightFrame& frame, const Wedges& wedges, ResourceId visibility) {
-    auto programs = piecePrograms(frame, {"HS_WEDGE_MULTIPLY"});
-    if (!programs) return programs.error();
-    framegraph::PassDesc pass{.name = wedgePassName(frame, "wedges of whole casters"),
-                              .stage = framegraph::PassStage::receiverPrepass,
-                              .reads = {wedges.depth.packed},
-                              .writes = wedgeTargets(visibility, wedges.depth, InitialContent::clear,
-                                                     wedges.volumes->lightEnclosed ? 0.0f : 1.0f)};
-    pass.execute = [programs = *programs, wedges, &view = frame.view,
-                    casters = castersWhere(wedges.volumes->pieces, [](const WedgeCaster& caster) {
-                      return caster.pieceCount == 1;
-                    })](framegraph::PassContext& context) {
-      addVolumes(context, programs, wedges, view, casters, kMultiply, kStepsOfOne);
-    };
-    frame.graph.addPass(std::move(pass));
-    return {};
-  }
-
-  static Status declareBatch(const LightFrame& frame, const Wedges& wedges, std::uint32_t batch,
+  static Status declareMerge(const LightFrame& frame, const WedgeVolumes& volumes, std::uint32_t batch,
                              ResourceId sums, ResourceId visibility) {
-    auto programs = piecePrograms(frame, {});
-    if (!programs) return programs.error();
     auto merge = frame.programs.get({"fullscreen.vert", "wedge_merge.frag", {}});
     if (!merge) return merge.error();
-    const std::string number = std::to_string(batch);
-    framegraph::PassDesc add{.name = wedgePassName(frame, "wedges of batch " + number),
-                             .stage = framegraph::PassStage::receiverPrepass,
-                             .reads = {wedges.depth.packed},
-                             .writes = wedgeTargets(sums, wedges.depth, InitialContent::clear, 0.0f)};
-    if (batch > 0) add.rebindReason = "casters of different batches may shadow the same receiver";
-    add.execute = [programs = *programs, wedges, &view = frame.view,
-                   casters = castersWhere(wedges.volumes->pieces, [batch](const WedgeCaster& caster) {
-                     return caster.pieceCount > 1 && caster.batch == batch;
-                   })](framegraph::PassContext& context) {
-      addVolumes(context, programs, wedges, view, casters, kAdd, kStepsOfOne);
-    };
-    frame.graph.addPass(std::move(add));
-
-    framegraph::PassDesc multiply{.name = wedgePassName(frame, "visibility of batch " + number),
-                                  .stage = framegraph::PassStage::receiverPrepass,
-                                  .reads = {sums}};
-    multiply.writes = {
-        {.resource = visibility, .point = AttachmentPoint::color, .initial = InitialContent::keep}};
+    framegraph::PassDesc multiply{
+        .name = wedgePassName(frame, "visibility of batch " + std::to_string(batch)),
+        .stage = framegraph::PassStage::receiverPrepass,
+        .reads = {sums},
+        .writes = {
+            {.resource = visibility, .point = AttachmentPoint::color, .initial = InitialContent::keep}}};
     multiply.rebindReason = "one batch at a time is added up; all of them would not fit in memory";
-    multiply.execute = [program = *merge, sums](framegraph::PassContext& context) {
+    multiply.execute = [program = *merge, sums,
+                        rects = touched(frame, volumes, batch)](framegraph::PassContext& context) {
       gl::Encoder& encoder = context.encoder;
       encoder.useProgram(*program);
       program->set(encoder.context(), "u_wedgeSteps", glm::vec4(kStepsOfOne, 0, 0, 0));
       const gl::TextureBinding binding{program->samplerUnit("u_sums"), &context.texture(sums)};
       encoder.bindTextures({&binding, 1});
-      encoder.drawFullscreen({.blend = kMultiply});
+      for (const gl::Rect& rect : rects) encoder.drawFullscreen({.blend = kMultiply, .scissor = rect});
     };
     frame.graph.addPass(std::move(multiply));
     return {};
   }
+
+  WedgeRoutes routes_;
 };
 }  // namespace
 

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// The integral of x dy along a piece of silhouette as a receiver sees it on the light's plane, with x and y clamped to
+// the light's square. Exact, continuous in the receiver's position, and additive: pieces that share a chord cancel
+// along it. Programs whose vertices come projected, as varyings, define HS_WEDGE_PROJECTED.
+// `w`, the height of the receiver above a vertex, must exceed HS_WEDGE_NEAR for the vertex to occlude. Receivers are
+// split in two by the heights where all vertices do, which is the rule.
+#ifdef HS_NO_HIGHP
+#define HS_WEDGE_ALL_NEAR 4e-3
+#define HS_WEDGE_FLAT 1e-2
+#define HS_WEDGE_LEVEL 2e-3
+#define hs_finite(x) clamp(x, -200.0, 200.0)
+#else
+#define HS_WEDGE_ALL_NEAR 1e-3
+#define HS_WEDGE_FLAT 1e-4
+#define HS_WEDGE_LEVEL 1e-6
+#define hs_finite(x) (x)
+#endif
+#if !defined(HS_NO_HIGHP)
+#define HS_WEDGE_NEAR 1e-4
+#elif defined(HS_WEDGE_PROJECTED)
+#define HS_WEDGE_NEAR 5e-4
+#else
+#define HS_WEDGE_NEAR 2e-3
+#endif
+
+#if defined(HS_NO_HIGHP) && !defined(HS_WEDGE_PROJECTED)
+// Keeps projected positions where slopes and primitives do not overflow, in their direction from the light's centre.
+void hs_bound(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y) {
+  HS_HIGHP vec4 scale = 60.0 / max(max(abs(x), abs(y)), 60.0);
+  x *= scale;
+  y *= scale;
+}
+#endif
+
+// From a vertex on the receiver's side of the light's plane to where the receiver sees it.
+#ifdef HS_WEDGE_PROJECTED
+// (x w, y w), w: relative precision is all that counts, and no quotient overflows.
+void hs_project(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y, HS_HIGHP vec4 w, HS_HIGHP vec2 foot,
+                HS_HIGHP float scale) {
+#ifdef HS_NO_HIGHP
+  w = max(w, max(abs(x), abs(y)) * (1.0 / 60.0));
+#endif
+  HS_HIGHP vec4 inverse = 1.0 / max(w, HS_WEDGE_NEAR);
+  x *= inverse;
+  y *= inverse;
+}
+#else
+// Relative to the receiver; `scale` turns that into offsets on the light's plane, from `foot`.
+void hs_project(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y, HS_HIGHP vec4 w, HS_HIGHP vec2 foot,
+                HS_HIGHP float scale) {
+  HS_HIGHP vec4 inverse = scale / max(w, HS_WEDGE_NEAR);
+  x = x * inverse + foot.x;
+  y = y * inverse + foot.y;
+#ifdef HS_NO_HIGHP
+  hs_bound(x, y);
+#endif
+}
+#endif
+
+// Not mix(), which drivers may compute as a + s (b - a): b is then lost beside a large a.
+HS_HIGHP vec4 hs_select(HS_HIGHP vec4 a, HS_HIGHP vec4 b, HS_HIGHP vec4 s) { return a * (vec4(1.0) - s) + b * s; }
+
+// Four edges (xa, ya) -> (xb, yb): the integral of clamp(x) dy between the clamped ends.
+HS_HIGHP float hs_edgeIntegrals(HS_HIGHP vec4 xa, HS_HIGHP vec4 ya, HS_HIGHP vec4 xb, HS_HIGHP vec4 yb) {
+  HS_HIGHP vec4 clampedA = clamp(ya, -1.0, 1.0);
+  HS_HIGHP vec4 clampedB = clamp(yb, -1.0, 1.0);
+  HS_HIGHP vec4 rise = yb - ya;
+  // Where the edge is level the clamped ends are, too, and whatever the slope the integral is 0.
+  HS_HIGHP vec4 slope = (xb - xa) / (rise + (vec4(1.0) - step(HS_WEDGE_LEVEL, abs(rise))));
+  // From the end nearer to the light's square: the other may be far away.
+  HS_HIGHP vec4 nearer = step(abs(yb), abs(ya));
+  HS_HIGHP vec4 x = hs_select(xa, xb, nearer), y = hs_select(ya, yb, nearer);
+  HS_HIGHP vec4 xFrom = x + hs_finite((clampedA - y) * slope);
+  HS_HIGHP vec4 xTo = x + hs_finite((clampedB - y) * slope);
+  HS_HIGHP vec4 from = clamp(xFrom, -1.0, 1.0);
+  HS_HIGHP vec4 to = clamp(xTo, -1.0, 1.0);
+  // The mean of clamp(x) for x from xFrom to xTo, by its primitive c x - c c / 2.
+  HS_HIGHP vec4 run = xTo - xFrom;
+  HS_HIGHP vec4 level = vec4(1.0) - step(HS_WEDGE_FLAT, abs(run));
+  HS_HIGHP vec4 primitive = to * (xTo - 0.5 * to) - from * (xFrom - 0.5 * from);
+  HS_HIGHP vec4 mean = hs_select(primitive / (run + level), 0.5 * (from + to), level);
+  return dot(mean, clampedB - clampedA);
+}
+
+#ifdef HS_WEDGE_CLIP
+// Vertices and the points where edges pass HS_WEDGE_NEAR, in order; what is cut away becomes a copy of its
+// neighbour, so that a chord closes the rest.
+HS_HIGHP vec2 hs_keep(HS_HIGHP vec2 last, HS_HIGHP vec2 point, HS_HIGHP float kept) {
+  return kept > 0.5 ? point : last;
+}
+HS_HIGHP vec2 hs_keepBackwards(HS_HIGHP vec2 last, HS_HIGHP vec4 x, HS_HIGHP vec4 y, HS_HIGHP vec4 inside,
+                               HS_HIGHP vec4 cutX, HS_HIGHP vec4 cutY, HS_HIGHP vec4 cut) {
+  last = hs_keep(last, vec2(x.w, y.w), inside.w);
+  last = hs_keep(last, vec2(cutX.w, cutY.w), cut.w);
+  last = hs_keep(last, vec2(x.z, y.z), inside.z);
+  last = hs_keep(last, vec2(cutX.z, cutY.z), cut.z);
+  last = hs_keep(last, vec2(x.y, y.y), inside.y);
+  last = hs_keep(last, vec2(cutX.y, cutY.y), cut.y);
+  last = hs_keep(last, vec2(x.x, y.x), inside.x);
+  return hs_keep(last, vec2(cutX.x, cutY.x), cut.x);
+}
+void hs_keepForwards(inout HS_HIGHP vec2 last, HS_HIGHP vec2 x, HS_HIGHP vec2 y, HS_HIGHP vec2 inside,
+                     HS_HIGHP vec2 cutX, HS_HIGHP vec2 cutY, HS_HIGHP vec2 cut, out HS_HIGHP vec4 keptX,
+                     out HS_HIGHP vec4 keptY) {
+  HS_HIGHP vec2 p0 = hs_keep(last, vec2(cutX.x, cutY.x), cut.x);
+  HS_HIGHP vec2 p1 = hs_keep(p0, vec2(x.x, y.x), inside.x);
+  HS_HIGHP vec2 p2 = hs_keep(p1, vec2(cutX.y, cutY.y), cut.y);
+  last = hs_keep(p2, vec2(x.y, y.y), inside.y);
+  keptX = vec4(p0.x, p1.x, p2.x, last.x);
+  keptY = vec4(p0.y, p1.y, p2.y, last.y);
+}
+
+// x, y: vertices as hs_project() takes them.
+HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP vec4 y0, HS_HIGHP vec4 y1,
+                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale) {
+  HS_HIGHP vec4 in0 = step(HS_WEDGE_NEAR, w0), in1 = step(HS_WEDGE_NEAR, w1);
+  HS_HIGHP vec4 beforeW0 = vec4(w1.w, w0.xyz), beforeW1 = vec4(w0.w, w1.xyz);
+  HS_HIGHP vec4 cut0 = abs(in0 - vec4(in1.w, in0.xyz)), cut1 = abs(in1 - vec4(in0.w, in1.xyz));
+  HS_HIGHP vec4 t0 = (HS_WEDGE_NEAR - beforeW0) / hs_select(vec4(1.0), w0 - beforeW0, cut0);
+  HS_HIGHP vec4 t1 = (HS_WEDGE_NEAR - beforeW1) / hs_select(vec4(1.0), w1 - beforeW1, cut1);
+  HS_HIGHP vec4 cutX0 = mix(vec4(x1.w, x0.xyz), x0, t0), cutX1 = mix(vec4(x0.w, x1.xyz), x1, t1);
+  HS_HIGHP vec4 cutY0 = mix(vec4(y1.w, y0.xyz), y0, t0), cutY1 = mix(vec4(y0.w, y1.xyz), y1, t1);
+  hs_project(x0, y0, w0, foot, scale);
+  hs_project(x1, y1, w1, foot, scale);
+  hs_project(cutX0, cutY0, vec4(HS_WEDGE_NEAR), foot, scale);
+  hs_project(cutX1, cutY1, vec4(HS_WEDGE_NEAR), foot, scale);
+  // What is cut away before the first point that stays becomes that point: found by going backwards.
+  HS_HIGHP vec2 last = hs_keepBackwards(vec2(0.0), x1, y1, in1, cutX1, cutY1, cut1);
+  last = hs_keepBackwards(last, x0, y0, in0, cutX0, cutY0, cut0);
+  HS_HIGHP vec4 px0, py0, px1, py1, px2, py2, px3, py3;
+  hs_keepForwards(last, x0.xy, y0.xy, in0.xy, cutX0.xy, cutY0.xy, cut0.xy, px0, py0);
+  hs_keepForwards(last, x0.zw, y0.zw, in0.zw, cutX0.zw, cutY0.zw, cut0.zw, px1, py1);
+  hs_keepForwards(last, x1.xy, y1.xy, in1.xy, cutX1.xy, cutY1.xy, cut1.xy, px2, py2);
+  hs_keepForwards(last, x1.zw, y1.zw, in1.zw, cutX1.zw, cutY1.zw, cut1.zw, px3, py3);
+  return hs_edgeIntegrals(px0, py0, vec4(px0.yzw, px1.x), vec4(py0.yzw, py1.x)) +
+         hs_edgeIntegrals(px1, py1, vec4(px1.yzw, px2.x), vec4(py1.yzw, py2.x)) +
+         hs_edgeIntegrals(px2, py2, vec4(px2.yzw, px3.x), vec4(py2.yzw, py3.x)) +
+         hs_edgeIntegrals(px3, py3, vec4(px3.yzw, px0.x), vec4(py3.yzw, py0.x));
+}
+#else
+HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP vec4 y0, HS_HIGHP vec4 y1,
+                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale) {
+  hs_project(x0, y0, w0, foot, scale);
+  hs_project(x1, y1, w1, foot, scale);
+  return hs_edgeIntegrals(x0, y0, vec4(x0.yzw, x1.x), vec4(y0.yzw, y1.x)) +
+         hs_edgeIntegrals(x1, y1, vec4(x1.yzw, x0.x), vec4(y1.yzw, y0.x));
+}
+#endif

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// A receiver's vertex P with the eight vertices E of a piece of silhouette projected from it onto the light's plane:
+// (hP E.ab - hE P.ab, hP - hE) is linear in P, so that interpolation is exact.
+attribute highp vec3 a_position;
+uniform highp mat4 u_clipFromObject;
+varying highp vec4 v_pieceX0;
+varying highp vec4 v_pieceX1;
+varying highp vec4 v_pieceY0;
+varying highp vec4 v_pieceY1;
+varying highp vec4 v_pieceW0;
+varying highp vec4 v_pieceW1;
+#ifdef HS_WEDGE_FOOTPRINT
+// Of the part of the receiver that the piece can shadow, projected once for all frames.
+attribute highp vec4 a_extra0;
+attribute highp vec4 a_extra1;
+attribute highp vec4 a_extra2;
+attribute highp vec4 a_extra3;
+attribute highp vec4 a_extra4;
+attribute highp vec4 a_normal;
+#else
+uniform highp mat4 u_lightFromObject;
+uniform highp vec4 u_piece[6];  // a, b and h of four vertices and four more
+#endif
+// The same depth as that of the pass which finds the visible surface.
+invariant gl_Position;
+
+void main() {
+  highp vec4 position = vec4(a_position, 1.0);
+  gl_Position = u_clipFromObject * position;
+#ifdef HS_WEDGE_FOOTPRINT
+  v_pieceX0 = a_extra0;
+  v_pieceX1 = a_extra1;
+  v_pieceY0 = a_extra2;
+  v_pieceY1 = a_extra3;
+  v_pieceW0 = a_extra4;
+  v_pieceW1 = a_normal;
+#else
+  highp vec3 place = (u_lightFromObject * position).xyz;
+  v_pieceX0 = place.z * u_piece[0] - place.x * u_piece[4];
+  v_pieceX1 = place.z * u_piece[1] - place.x * u_piece[5];
+  v_pieceY0 = place.z * u_piece[2] - place.y * u_piece[4];
+  v_pieceY1 = place.z * u_piece[3] - place.y * u_piece[5];
+  v_pieceW0 = place.z - u_piece[4];
+  v_pieceW1 = place.z - u_piece[5];
+#endif
+}
