@@ -24,6 +24,7 @@ struct Limits {
   int fragmentTextureUnits = 8;
   int vertexTextureUnits = 0;
   int vertexAttributes = 8;
+  int subpixelBits = 4;  ///< rasterisers snap vertices to 2^-this of a pixel
 };
 
 // X(enumerator, "option-name", "what it gives")

@@ -27,6 +27,7 @@ Limits readLimits(const Functions& gl) {
   limits.textureSize = integerOf(gl, GL_MAX_TEXTURE_SIZE, limits.textureSize);
   limits.renderbufferSize = integerOf(gl, GL_MAX_RENDERBUFFER_SIZE, limits.renderbufferSize);
   limits.varyingVectors = integerOf(gl, GL_MAX_VARYING_VECTORS, limits.varyingVectors);
+  limits.subpixelBits = integerOf(gl, GL_SUBPIXEL_BITS, limits.subpixelBits);
   limits.vertexUniformVectors = integerOf(gl, GL_MAX_VERTEX_UNIFORM_VECTORS, limits.vertexUniformVectors);
   limits.fragmentUniformVectors =
       integerOf(gl, GL_MAX_FRAGMENT_UNIFORM_VECTORS, limits.fragmentUniformVectors);

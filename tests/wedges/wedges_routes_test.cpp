@@ -22,6 +22,11 @@ bool onAngle() {
   return driver != nullptr && std::string(driver) == "angle";
 }
 
+/// ANGLE's rasteriser snaps vertices to a sixteenth of a pixel.
+bool snaps() {
+  return onAngle() && !isForcedOff("highp");
+}
+
 class WedgesRoutes : public SharedEngineTest {
  protected:
   static bool hasPass(const std::string& name) {
@@ -40,7 +45,8 @@ TEST_F(WedgesRoutes, AReceiverOfFewTrianglesTakesOneDraw) {
   EXPECT_TRUE(hasPass("receiver depth"));
   // Depth, both parts of the volume, the ground.
   EXPECT_EQ(renderer().report().draws, 1u + 2u + 1u);
-  for (const char* route : {"receivers", "auto"}) {
+  for (const std::string route : {"receivers", "auto"}) {
+    if (route == "auto" && snaps()) continue;
     const Image byReceivers = renderer().render(by("wedges", route));
     EXPECT_EQ(renderer().report().passes.size(), 2u);
     EXPECT_EQ(renderer().report().framebufferSwitches, 2u);
@@ -73,6 +79,11 @@ TEST_F(WedgesRoutes, AutoBoundsTheDrawsOfDenseReceivers) {
   renderer().render(by("wedges", "screen"));
   const std::uint64_t onScreen = renderer().report().draws;
   renderer().render(by("wedges", "auto"));
+  if (snaps()) {
+    EXPECT_TRUE(notes("light 0 wedges drawn by receivers"));
+    EXPECT_EQ(renderer().report().draws, onScreen);
+    return;
+  }
   EXPECT_EQ(renderer().report().passes.size(), 3u);
   EXPECT_TRUE(hasPass("receiver depth"));
   EXPECT_TRUE(notes("light 0 wedge volumes for receivers of few triangles"));

@@ -62,22 +62,4 @@ void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs,
   }
 }
 
-Result<ReceiverShading> declareAdditiveWedges(const LightFrame& frame, const Wedges& wedges) {
-  auto programs = piecePrograms(frame, {});
-  if (!programs) return programs.error();
-  const ResourceId sums = screenImage(frame, "wedge sums");
-  framegraph::PassDesc pass{.name = wedgePassName(frame, "wedges"),
-                            .stage = framegraph::PassStage::receiverPrepass,
-                            .reads = {wedges.depth.packed},
-                            .writes = wedgeTargets(sums, wedges.depth, InitialContent::clear, 0.0f)};
-  pass.execute = [programs = *programs, wedges, &view = frame.view](framegraph::PassContext& context) {
-    if (wedges.volumes->lightEnclosed) return;
-    const CasterRange all{0, static_cast<std::uint32_t>(wedges.volumes->pieces.casters.size())};
-    addVolumes(context, programs, wedges, view, {&all, 1}, kAdd, kStepsOfAll);
-  };
-  frame.graph.addPass(std::move(pass));
-  // Nothing drawn reads as visibility 0.
-  return screenShading(sums, wedges.volumes->lightEnclosed ? 0.0f : kStepsOfAll);
-}
-
 }  // namespace halfshadow::techniques

@@ -44,7 +44,4 @@ std::vector<framegraph::Attachment> wedgeTargets(framegraph::ResourceId color, c
 /// Visibility from sums (`steps` > 0) or from an image of visibilities (0).
 ReceiverShading screenShading(framegraph::ResourceId image, float steps);
 
-/// Adds up all casters in one pass: exact where one caster shadows a receiver. Errors: shaderFailed.
-Result<ReceiverShading> declareAdditiveWedges(const LightFrame& frame, const Wedges& wedges);
-
 }  // namespace halfshadow::techniques

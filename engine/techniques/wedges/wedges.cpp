@@ -2,17 +2,13 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
-#include "techniques/wedges/wedge_route.hpp"
+#include "techniques/wedge_receivers/wedge_route.hpp"
 
 namespace halfshadow::techniques {
 namespace {
 using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
-
-std::vector<WedgeGroup> allTogether(const WedgePieces& pieces) {
-  return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
-}
 
 WedgeGroup castersWhere(const WedgePieces& pieces, auto predicate) {
   WedgeGroup group;
@@ -54,13 +50,7 @@ class AdditiveWedges final : public Technique {
   }
   std::vector<SettingInfo> settings() const override { return {routeSetting("wedges.route")}; }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto route = routes_.choose(frame, "wedges.route", allTogether);
-    if (!route) return route.error();
-    const ResourceId sums = screenImage(frame, "wedge sums");
-    if (Status s = route->declareGroup(frame, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {}); !s)
-      return s.error();
-    // Nothing drawn reads as visibility 0.
-    return screenShading(sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
+    return routes_.declareSums(frame, frame.settings.choice("wedges.route"));
   }
   void contextLost() override { routes_.contextLost(); }
 
@@ -83,7 +73,7 @@ class ProbabilisticWedges final : public Technique {
   }
   std::vector<SettingInfo> settings() const override { return {routeSetting("wedges-probabilistic.route")}; }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto route = routes_.choose(frame, "wedges-probabilistic.route", wholeThenBatches);
+    auto route = routes_.choose(frame, frame.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
     if (!route) return route.error();
     const WedgeVolumes& volumes = route->volumes();
     const ResourceId visibility = screenImage(frame, "wedge visibility");

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "techniques/caster_lists/light_lists.hpp"
-#include "techniques/wedge_volumes/wedge_passes.hpp"
+#include "techniques/wedge_receivers/wedge_route.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -68,20 +68,19 @@ class WedgesBlended final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto volumes = volumes_.update(frame);
-    if (!volumes) return volumes.error();
+    const WedgeVolumes& volumes = routes_.volumes(frame);
     Light& light = lights_[frame.lightIndex];
-    if (light.meetKey != (*volumes)->contentKey) {
-      light.meet = castersMeet((*volumes)->pieces);
-      light.meetKey = (*volumes)->contentKey;
+    if (light.meetKey != volumes.contentKey) {
+      light.meet = castersMeet(volumes.pieces);
+      light.meetKey = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
-    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame, **volumes);
+    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame);
     return gather(frame, light.lists);
   }
   void contextLost() override {
     lights_.clear();
-    volumes_.contextLost();
+    routes_.contextLost();
   }
 
  private:
@@ -92,11 +91,9 @@ class WedgesBlended final : public Technique {
   };
 
   /// Without overlap there is nothing to blend.
-  static Result<ReceiverShading> addUp(const LightFrame& frame, const WedgeVolumes& volumes) {
+  Result<ReceiverShading> addUp(const LightFrame& frame) {
     frame.graph.noteSkipped("blending", "no two casters shadow the same receiver: their shares are added up");
-    auto depth = declareReceiverDepth(frame);
-    if (!depth) return depth.error();
-    return declareAdditiveWedges(frame, {&volumes, *depth});
+    return routes_.declareSums(frame, "auto");
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.
@@ -113,7 +110,7 @@ class WedgesBlended final : public Technique {
     return shading;
   }
 
-  WedgeVolumeCache volumes_;
+  WedgeRoutes routes_;
   std::map<int, Light> lights_;
 };
 }  // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/wedges/wedge_route.hpp"
+#include "techniques/wedge_receivers/wedge_route.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -11,7 +11,12 @@ using framegraph::PassDesc;
 /// Draws of whole receivers, and vertices that they process, up to which `auto` lets receivers carry the
 /// silhouettes.
 constexpr std::size_t kMostDraws = 64, kMostVertices = 65536;
+/// Of the rasteriser, for penumbrae of a few pixels: footprints have vertices of their own.
+constexpr int kEnoughSubpixelBits = 6;
 
+std::vector<WedgeGroup> allTogether(const WedgePieces& pieces) {
+  return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
+}
 gl::BlendState blendOf(WedgeMix mix) {
   return mix == WedgeMix::add ? kAdd : kMultiply;
 }
@@ -33,7 +38,9 @@ SettingInfo routeSetting(const std::string& key) {
           {"auto", "screen", "receivers"},
           "screen draws wedges as volumes and reads the receivers' depth; receivers draws what is shadowed, "
           "silhouettes projected at its vertices, without depth texture and exact without highp; auto takes "
-          "receivers unless those of many triangles would need more than 64 draws"};
+          "receivers for those of few triangles, and for others unless they need more than 64 draws; screen "
+          "on devices "
+          "with highp and less than 6 bits of subpixel precision"};
 }
 
 Status WedgeRoute::declareGroup(const LightFrame& frame, std::size_t index, const std::string& name,
@@ -107,13 +114,19 @@ Status WedgeRoute::addReceiverPass(const LightFrame& frame, PassDesc pass, std::
   return {};
 }
 
-Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view key, Grouping grouping) {
+Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view setting, Grouping grouping) {
   WedgeRoute route;
   route.volumes_ = volumes_.updatePieces(frame);
   route.groups_ = grouping(route.volumes_->pieces);
-  const std::string& setting = frame.settings.choice(key);
   VolumeEnds ends;
-  if (setting != "screen") {
+  const bool highp = frame.capabilities.has(gl::Capability::highp);
+  const bool snaps = highp && frame.capabilities.limits.subpixelBits < kEnoughSubpixelBits;
+  if (setting == "auto" && snaps) {
+    frame.graph.noteSkipped(wedgePassName(frame, "wedges drawn by receivers"),
+                            "this device snaps vertices to " +
+                                std::to_string(1 << frame.capabilities.limits.subpixelBits) +
+                                "ths of a pixel, which narrow penumbrae show");
+  } else if (setting != "screen") {
     auto draws = receivers_[frame.lightIndex].update(frame, *route.volumes_, route.groups_);
     if (!draws) return draws.error();
     const std::string count = std::to_string(draws->wholeDraws) + " draws of receivers with many triangles";
@@ -140,6 +153,16 @@ Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view
   if (!depth) return depth.error();
   route.depth_ = *depth;
   return route;
+}
+
+Result<ReceiverShading> WedgeRoutes::declareSums(const LightFrame& frame, std::string_view setting) {
+  auto route = choose(frame, setting, allTogether);
+  if (!route) return route.error();
+  const framegraph::ResourceId sums = screenImage(frame, "wedge sums");
+  if (Status s = route->declareGroup(frame, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {}); !s)
+    return s.error();
+  // Nothing drawn reads as visibility 0.
+  return screenShading(sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
 }
 
 void WedgeRoutes::contextLost() {

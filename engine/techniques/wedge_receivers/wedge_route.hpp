@@ -53,10 +53,15 @@ class WedgeRoutes {
  public:
   /// Which casters are drawn together.
   using Grouping = std::vector<WedgeGroup> (*)(const WedgePieces& pieces);
-  /// `key` names the setting. With `auto`, receivers carry the silhouettes where that takes few draws: no
-  /// receiver of many triangles, or not many pieces that reach one; the frame's notes tell. Errors:
-  /// outOfMemory, shaderFailed.
-  Result<WedgeRoute> choose(const LightFrame& frame, std::string_view key, Grouping grouping);
+  /// `setting` is the value of a routeSetting(). With `auto`, receivers of few triangles carry the
+  /// silhouettes; so do all others where that takes at most 64 draws and 65,536 vertices, else they meet
+  /// volumes that end behind them. Everything is done on the screen where fragments have highp and the
+  /// rasteriser less than 6 bits below a pixel. The frame's notes tell. Errors: outOfMemory, shaderFailed.
+  Result<WedgeRoute> choose(const LightFrame& frame, std::string_view setting, Grouping grouping);
+  /// Adds up all casters in one pass: exact where one caster shadows a receiver. Errors: those of choose().
+  Result<ReceiverShading> declareSums(const LightFrame& frame, std::string_view setting);
+  /// What choose() groups.
+  const WedgeVolumes& volumes(const LightFrame& frame) { return *volumes_.updatePieces(frame); }
   void contextLost();
 
  private:
