@@ -8,12 +8,6 @@ uniform HS_HIGHP sampler2D u_cells1;
 uniform HS_HIGHP sampler2D u_cells2;
 uniform HS_HIGHP sampler2D u_cells3;
 #endif
-#if HS_CELL_TARGETS >= 8
-uniform HS_HIGHP sampler2D u_cells4;
-uniform HS_HIGHP sampler2D u_cells5;
-uniform HS_HIGHP sampler2D u_cells6;
-uniform HS_HIGHP sampler2D u_cells7;
-#endif
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
 float halfshadow_visibility() {
   HS_COUNT(HS_CELL_TARGETS);
@@ -21,9 +15,6 @@ float halfshadow_visibility() {
   HS_HIGHP vec4 sum = texture2D(u_cells0, at);
 #if HS_CELL_TARGETS >= 4
   sum += texture2D(u_cells1, at) + texture2D(u_cells2, at) + texture2D(u_cells3, at);
-#endif
-#if HS_CELL_TARGETS >= 8
-  sum += texture2D(u_cells4, at) + texture2D(u_cells5, at) + texture2D(u_cells6, at) + texture2D(u_cells7, at);
 #endif
   return dot(sum, vec4(0.25 / float(HS_CELL_TARGETS)));
 }

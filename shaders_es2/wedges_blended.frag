@@ -9,6 +9,7 @@
 #include "list_vertices.glsl"
 #define HS_SUB_LIGHTS 1.0
 #include "caster_lists.glsl"
+#include "vbuffer_walk.glsl"
 
 float halfshadow_class() {
   hs_findList();
@@ -50,42 +51,13 @@ float halfshadow_visibility() {
     if (ends > 2.5) break;
     HS_Sums sums;
     hs_clearSums(sums);
-#ifdef HS_CASTING_RECEIVER
-    HS_HIGHP vec3 previous = vec3(0.0);
-    HS_HIGHP vec2 reached = vec2(0.0), firstReached = vec2(0.0);
-    HS_HIGHP float begun = 0.0;
-#else
-    HS_HIGHP vec2 previous = vec2(0.0);
-#endif
+    HS_Walk walk;
+    hs_startWalk(walk);
     for (int i = 0; i < HS_LONGEST_LIST; ++i) {
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
       ends = tags.ends;
-#ifdef HS_CASTING_RECEIVER
-      // Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
-      begun *= 1.0 - tags.starts;
-      HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : previous.z - HS_NEAR, now = projected.z - HS_NEAR;
-      HS_HIGHP vec3 cut =
-          mix(previous, projected, before / (abs(before - now) < 1e-9 ? 1e-9 : before - now));
-      bool crosses = before * now < 0.0 && tags.starts < 0.5;
-      bool seen = max(before, now) > 0.0;
-      HS_HIGHP vec2 from = hs_onLight(before > 0.0 ? previous : (crosses ? cut : projected));
-      HS_HIGHP vec2 to = hs_onLight(now > 0.0 ? projected : cut);
-      if (seen && begun < 0.5) {
-        firstReached = from;
-        reached = from;
-        begun = 1.0;
-      }
-      hs_addFarChord(sums, reached, seen ? from : reached);
-      hs_addEdge(sums, seen ? from : to, to);
-      reached = seen ? to : reached;
-      hs_addFarChord(sums, reached, begun * tags.closes > 0.5 ? firstReached : reached);
-      previous = projected;
-#else
-      HS_HIGHP vec2 point = hs_onLight(projected);
-      hs_addEdge(sums, mix(previous, point, tags.starts), point);
-      previous = point;
-#endif
+      hs_walk(walk, sums, projected, tags);
       if (ends > 0.5) break;
     }
     all = hs_merge(all, hs_occlusion(sums));

@@ -114,11 +114,10 @@ struct Family {
 void PrintTo(const Family& family, std::ostream* stream) {
   *stream << family.id;
 }
-const Family kFamilies[] = {{"wedges", 0.015, 0.06},
-                            {"wedges-probabilistic", 0.015, 0.025},
-                            {"wedges-blended", 0.015, 0.015},
-                            {"wedges-cells", 0.015, 0.01},
-                            {"wedges-cells", 0.015, 0.01, {{"wedges-cells.route", "scatter"}}}};
+const Family kFamilies[] = {
+    {"wedges", 0.015, 0.06},          {"wedges-probabilistic", 0.015, 0.025},
+    {"wedges-blended", 0.015, 0.015}, {"wedges-blended", 0.015, 0.015, {{"wedges-blended.merge", "minmax"}}},
+    {"wedges-cells", 0.015, 0.01},    {"wedges-cells", 0.015, 0.01, {{"wedges-cells.route", "scatter"}}}};
 
 void save(const std::string& name, const StressTruth& truth, const std::vector<float>& actual) {
   const std::filesystem::path folder = std::filesystem::path(HALFSHADOW_TEST_OUTPUT_DIR);

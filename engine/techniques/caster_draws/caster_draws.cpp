@@ -134,7 +134,7 @@ void CasterDraws::draw(framegraph::PassContext& context, const CasterPrograms& p
     program.set(gl, "u_listScale", glm::vec4(step_, heightBias_));
     program.set(gl, "u_facetLift", facetLift);
     program.set(gl, "u_casterLight", glm::vec4(light.center - light.half, light.center + light.half));
-    if (request.setUniforms) request.setUniforms(program);
+    if (request.prepare) request.prepare(program);
     drawPart(encoder, view, request, part);
   }
 }

@@ -34,8 +34,8 @@ class CasterDraws {
     std::uint32_t subLight = 0, batch = 0;
     gl::BlendState blend;
     std::array<bool, 4> colorMask{true, true, true, true};
-    /// Called with each program while it is current.
-    std::function<void(gl::Program&)> setUniforms;
+    /// Called with each program while it is current: uniforms and textures of the fragment shader's own.
+    std::function<void(gl::Program&)> prepare{};
   };
   /// In a pass whose depth attachment is ReceiverDepth::depthTest; `depth` was declared with facets.
   void draw(framegraph::PassContext& context, const CasterPrograms& programs, const ReceiverDepth& depth,

@@ -86,7 +86,8 @@ bool shareReceivers(const CasterVolume& a, const CasterVolume& b) {
   return a.extent.meetsBetween(b.extent, std::max(a.from, b.from), std::min(a.end, b.end));
 }
 
-/// Each volume goes into the first batch where it meets no other.
+/// Each volume goes into the first batch where it meets no other. Placing those first that meet most gave no
+/// fewer batches.
 std::uint32_t assignBatches(std::span<CasterVolume> volumes) {
   std::vector<std::vector<const CasterVolume*>> batches;
   for (CasterVolume& volume : volumes) {

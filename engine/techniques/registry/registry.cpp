@@ -60,7 +60,14 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
        0,
        0,
        {"gather", "scatter", "fetch"},
-       "what wedges-cells.route=auto means; device profiles set it"}};
+       "what wedges-cells.route=auto means; device profiles set it"},
+      {"wedge_merge",
+       SettingType::choice,
+       "gather",
+       0,
+       0,
+       {"gather", "core", "minmax", "fetch"},
+       "what wedges-blended.merge=auto means; device profiles set it"}};
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }

@@ -24,6 +24,12 @@ ReceiverShading screenShading(ResourceId image, float steps) {
   return shading;
 }
 
+ReceiverShading shareShading(ResourceId image) {
+  ReceiverShading shading = screenShading(image, 0.0f);
+  shading.defines = {"HS_WEDGE_SHARES"};
+  return shading;
+}
+
 ResourceId screenImage(const LightFrame& frame, const std::string& name) {
   return frame.graph.addResource({.name = "light " + std::to_string(frame.lightIndex) + " " + name,
                                   .width = frame.view.width,

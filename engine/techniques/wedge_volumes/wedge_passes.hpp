@@ -43,5 +43,7 @@ std::vector<framegraph::Attachment> wedgeTargets(framegraph::ResourceId color, c
                                                  framegraph::InitialContent initial, float clear);
 /// Visibility from sums (`steps` > 0) or from an image of visibilities (0).
 ReceiverShading screenShading(framegraph::ResourceId image, float steps);
+/// Visibility from the covered shares of the light's four quadrants.
+ReceiverShading shareShading(framegraph::ResourceId image);
 
 }  // namespace halfshadow::techniques

@@ -3,9 +3,11 @@
 #include "techniques/wedges_blended/wedges_blended.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "techniques/caster_lists/light_lists.hpp"
 #include "techniques/wedge_receivers/wedge_route.hpp"
+#include "techniques/wedges_blended/vbuffer_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -22,6 +24,26 @@ bool castersMeet(const WedgePieces& pieces) {
     }
   }
   return false;
+}
+
+/// How targets are to be merged here; nothing when vBuffers stay in registers. What is missing is noted.
+std::optional<SideMerge> targetMerge(const LightFrame& frame) {
+  std::string asked = frame.settings.choice("wedges-blended.merge");
+  if (asked == "auto") asked = frame.settings.choice("wedge_merge");
+  if (asked == "gather") return std::nullopt;
+  const auto note = [&](const char* why) {
+    frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge " + asked, why);
+  };
+  if (!frame.capabilities.has(gl::Capability::highp)) {
+    note("a receiver's place needs highp in fragment shaders: casters are gathered");
+    return std::nullopt;
+  }
+  if (asked == "fetch" && frame.capabilities.has(gl::Capability::framebufferFetch)) return SideMerge::fetch;
+  if (asked == "core") return SideMerge::core;
+  const bool minmax = frame.capabilities.has(gl::Capability::blendMinmax);
+  if (asked == "fetch") note("no framebuffer fetch here: rectangles are united by blending");
+  if (!minmax) note("no EXT_blend_minmax here: rectangles are united by fixed functions of the core");
+  return minmax ? SideMerge::minmax : SideMerge::core;
 }
 
 class WedgesBlended final : public Technique {
@@ -56,9 +78,12 @@ class WedgesBlended final : public Technique {
          "auto",
          0,
          0,
-         {"auto", "core"},
-         "how vBuffers are merged: core keeps both in registers and needs no extension; auto takes the "
-         "cheapest here, which is core"},
+         {"auto", "gather", "core", "minmax", "fetch"},
+         "how casters are merged: gather keeps vBuffers in registers, a receiver fragment walks the casters "
+         "of "
+         "its tile; the others keep them in targets and draw caster by caster: rectangles united by fixed "
+         "functions of the core, by the larger of two (EXT_blend_minmax), or by framebuffer fetch; auto: "
+         "wedge_merge, the device profile's choice"},
         {"wedges-blended.tiles",
          SettingType::integer,
          "128",
@@ -76,6 +101,10 @@ class WedgesBlended final : public Technique {
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
     if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame);
+    if (const auto merge = targetMerge(frame)) {
+      const bool centres = frame.settings.choice("wedges-blended.cog") == "on";
+      return declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres});
+    }
     return gather(frame, light.lists);
   }
   void contextLost() override {
@@ -86,6 +115,7 @@ class WedgesBlended final : public Technique {
  private:
   struct Light {
     LightLists lists;
+    CasterDraws draws;
     std::uint64_t meetKey = 0;
     bool meet = false;
   };

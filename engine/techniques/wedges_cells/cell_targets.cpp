@@ -70,6 +70,31 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
   frame.graph.addPass(std::move(pass));
   return {};
 }
+
+/// Eight targets and a base colour are more textures than a pass may read: their mean is taken first.
+Result<ReceiverShading> declareMean(const LightFrame& frame, std::span<const ReceiverTexture> cells) {
+  auto program = frame.programs.get({"fullscreen.vert", "cell_mean.frag", {}});
+  if (!program) return program.error();
+  const framegraph::ResourceId mean = screenImage(frame, "mean of cells");
+  framegraph::PassDesc pass{.name = wedgePassName(frame, "mean of cells"),
+                            .stage = framegraph::PassStage::receiverPrepass};
+  for (const ReceiverTexture& target : cells) pass.reads.push_back(target.resource);
+  pass.writes = {{.resource = mean,
+                  .point = framegraph::AttachmentPoint::color,
+                  .initial = framegraph::InitialContent::dontCare}};
+  pass.execute = [program = *program,
+                  cells = std::vector(cells.begin(), cells.end())](framegraph::PassContext& context) {
+    context.encoder.useProgram(*program);
+    std::vector<gl::TextureBinding> bindings;
+    for (const ReceiverTexture& target : cells) {
+      bindings.push_back({program->samplerUnit(target.sampler), &context.texture(target.resource)});
+    }
+    context.encoder.bindTextures(bindings);
+    context.encoder.drawFullscreen({});
+  };
+  frame.graph.addPass(std::move(pass));
+  return screenShading(mean, 0.0f);
+}
 }  // namespace
 
 Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws& draws, int cells,
@@ -93,6 +118,7 @@ Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws&
     }
     shading.textures.push_back({.sampler = kSamplers[t], .resource = targets[t].image});
   }
+  if (targets.size() > 4) return declareMean(frame, shading.textures);
   return shading;
 }
 

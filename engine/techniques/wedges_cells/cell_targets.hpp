@@ -14,7 +14,8 @@ enum class CellProduct {
   fetched   ///< by the shader, which reads the pixel it writes: rounded to nearest on every device
 };
 
-/// One pass a target: four sub-lights of one cell in one target, of four cells in four, of eight in eight.
+/// One pass a target: four sub-lights of one cell in one target, of four cells in four, of eight in eight
+/// (and one that takes their mean).
 /// `cells`: 4, 16 or 32. The passes refer to `draws`. Errors: shaderFailed, outOfMemory.
 Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws& draws, int cells,
                                            CellProduct product);

@@ -23,11 +23,6 @@ Route routeOf(const LightFrame& frame) {
   if (!frame.capabilities.has(gl::Capability::highp)) {
     return instead(Route::gather, "a receiver's place needs highp in fragment shaders: cells are gathered");
   }
-  // Eight targets and a base colour.
-  if (frame.settings.choice("wedges-cells.bytes") == "32" &&
-      frame.capabilities.limits.fragmentTextureUnits < 9) {
-    return instead(Route::gather, "32 cells need 9 texture units: cells are gathered");
-  }
   if (asked == "fetch" && !frame.capabilities.has(gl::Capability::framebufferFetch)) {
     return instead(Route::scatter, "no framebuffer fetch here: cells are multiplied by blending");
   }
