@@ -18,6 +18,12 @@ attribute highp vec4 a_extra2;
 attribute highp vec4 a_extra3;
 attribute highp vec4 a_extra4;
 attribute highp vec4 a_normal;
+#ifdef HS_WEDGE_EXACT
+attribute highp vec4 a_texcoord;
+uniform highp mat4 u_lightFromObject;
+varying highp vec3 v_place;  // (a, b, h)
+varying highp vec4 v_facet;  // dot(xyz, place) = w
+#endif
 #else
 uniform highp mat4 u_lightFromObject;
 uniform highp vec4 u_piece[6];  // a, b and h of four vertices and four more
@@ -35,6 +41,10 @@ void main() {
   v_pieceY1 = a_extra3;
   v_pieceW0 = a_extra4;
   v_pieceW1 = a_normal;
+#ifdef HS_WEDGE_EXACT
+  v_place = (u_lightFromObject * position).xyz;
+  v_facet = a_texcoord;
+#endif
 #else
   highp vec3 place = (u_lightFromObject * position).xyz;
   v_pieceX0 = place.z * u_piece[0] - place.x * u_piece[4];

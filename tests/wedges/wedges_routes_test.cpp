@@ -22,11 +22,6 @@ bool onAngle() {
   return driver != nullptr && std::string(driver) == "angle";
 }
 
-/// ANGLE's rasteriser snaps vertices to a sixteenth of a pixel.
-bool snaps() {
-  return onAngle() && !isForcedOff("highp");
-}
-
 class WedgesRoutes : public SharedEngineTest {
  protected:
   static bool hasPass(const std::string& name) {
@@ -46,7 +41,6 @@ TEST_F(WedgesRoutes, AReceiverOfFewTrianglesTakesOneDraw) {
   // Depth, both parts of the volume, the ground.
   EXPECT_EQ(renderer().report().draws, 1u + 2u + 1u);
   for (const std::string route : {"receivers", "auto"}) {
-    if (route == "auto" && snaps()) continue;
     const Image byReceivers = renderer().render(by("wedges", route));
     EXPECT_EQ(renderer().report().passes.size(), 2u);
     EXPECT_EQ(renderer().report().framebufferSwitches, 2u);
@@ -79,11 +73,6 @@ TEST_F(WedgesRoutes, AutoBoundsTheDrawsOfDenseReceivers) {
   renderer().render(by("wedges", "screen"));
   const std::uint64_t onScreen = renderer().report().draws;
   renderer().render(by("wedges", "auto"));
-  if (snaps()) {
-    EXPECT_TRUE(notes("light 0 wedges drawn by receivers"));
-    EXPECT_EQ(renderer().report().draws, onScreen);
-    return;
-  }
   EXPECT_EQ(renderer().report().passes.size(), 3u);
   EXPECT_TRUE(hasPass("receiver depth"));
   EXPECT_TRUE(notes("light 0 wedge volumes for receivers of few triangles"));
@@ -92,7 +81,7 @@ TEST_F(WedgesRoutes, AutoBoundsTheDrawsOfDenseReceivers) {
 }
 
 // Ground pixels differ by the rounding of 24-bit depth: a step of 255. ANGLE's rasteriser snaps vertices to a
-// sixteenth of a pixel, which moves the narrowest penumbrae of a leaf by 9 steps.
+// sixteenth of a pixel, which footprints make good and depth does not.
 TEST_F(WedgesRoutes, AllGiveOneImage) {
   if (isForcedOff("highp")) GTEST_SKIP() << "highp is forced off: on the screen positions have 11 bits";
   for (const char* technique : {"wedges", "wedges-probabilistic"}) {

@@ -53,7 +53,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"wedge_volume.vert", "wedge_piece.frag", {"HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
       {"wedge_receiver.vert",
        "wedge_receiver.frag",
-       {"HS_WEDGE_FOOTPRINT", "HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
+       {"HS_WEDGE_FOOTPRINT", "HS_WEDGE_EXACT", "HS_WEDGE_MULTIPLY", "HS_WEDGE_CLIP"}},
       {"fullscreen.vert", "wedge_merge.frag", {}},
       {"caster_volume.vert",
        "caster_cells.frag",

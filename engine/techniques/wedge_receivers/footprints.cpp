@@ -48,8 +48,16 @@ Polygon cutToVolume(Polygon polygon, const WedgeExtent& extent) {
   return polygon;
 }
 
-FootprintVertex projected(const Corner& corner, const WedgePieces& pieces, const WedgePiece& piece) {
-  FootprintVertex vertex{.positionObject = glm::vec3(corner.object)};
+glm::vec4 facetOf(const Polygon& triangle) {
+  const glm::dvec3 a = triangle.corners[0].light;
+  const glm::dvec3 n = glm::cross(triangle.corners[1].light - a, triangle.corners[2].light - a);
+  const double length = glm::length(n);
+  return length > 0.0 ? glm::vec4(glm::dvec4(n, glm::dot(n, a)) / length) : glm::vec4(0.0f);
+}
+
+FootprintVertex projected(const Corner& corner, const WedgePieces& pieces, const WedgePiece& piece,
+                          const glm::vec4& facet) {
+  FootprintVertex vertex{.positionObject = glm::vec3(corner.object), .facet = facet};
   const glm::dvec3& p = corner.light;
   for (std::uint32_t i = 0; i < kPieceVertices; ++i) {
     const glm::dvec3 e(pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)]);
@@ -88,9 +96,10 @@ void addFootprints(const ReceiverTriangles& receiver, const WedgePieces& pieces,
     double nearest = polygon.corners[0].light.z;
     for (std::size_t i = 1; i < polygon.count; ++i) nearest = std::min(nearest, polygon.corners[i].light.z);
     auto& stream = nearest - piece.extent.farthest >= kAllVerticesNear ? result.beyond : result.beside;
+    const glm::vec4 facet = facetOf(triangle);
     std::array<FootprintVertex, 8> vertices;
     for (std::size_t i = 0; i < polygon.count; ++i)
-      vertices[i] = projected(polygon.corners[i], pieces, piece);
+      vertices[i] = projected(polygon.corners[i], pieces, piece, facet);
     for (std::size_t i = 2; i < polygon.count; ++i)
       stream.insert(stream.end(), {vertices[0], vertices[i - 1], vertices[i]});
   }

@@ -19,6 +19,7 @@ inline constexpr double kAllVerticesNear = 1e-3;
 struct FootprintVertex {
   glm::vec3 positionObject{0.0f};
   std::array<float, kPieceVertices> x{}, y{}, w{};
+  glm::vec4 facet{0.0f};  ///< the triangle's plane: dot(xyz, (a, b, h)) = w
 };
 
 /// Triangles, three vertices each, wound like the receiver's.

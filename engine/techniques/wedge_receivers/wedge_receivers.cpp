@@ -3,6 +3,7 @@
 #include "techniques/wedge_receivers/wedge_receivers.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 
 #include "planner/frame_planner.hpp"
@@ -14,10 +15,16 @@ constexpr std::size_t kMostFootprintVertices = 65536;
 /// Volumes end a little behind the receiver, so that it lies inside whatever rounding does.
 constexpr double kBeyondReceiver = 1e-3;
 
-/// Footprints have corners of their own, which rasterisers snap to a sixteenth of a pixel or less.
-constexpr glm::vec2 kFootprintOffset(-0.0625f, -2.0f);
+/// Footprints have corners of their own, which rasterisers snap along both axes, those of the visible surface
+/// likewise: in all up to four steps of the grid, times the slope.
+glm::vec2 footprintOffset(const gl::Capabilities& capabilities) {
+  return {-std::exp2(2.0f - static_cast<float>(capabilities.limits.subpixelBits)), -2.0f};
+}
 /// Whole receivers have the same corners as in the depth pass.
 constexpr glm::vec2 kWholeOffset(0.0f, -1.0f);
+
+/// Of the rasteriser, for penumbrae of a few pixels.
+constexpr int kEnoughSubpixelBits = 6;
 
 void forEachPiece(const WedgeVolumes& volumes, const WedgeGroup& group, auto visit) {
   for (const CasterRange& range : group) {
@@ -40,13 +47,15 @@ void drawFootprints(gl::Encoder& encoder, const gl::DrawState& state, const Rece
   constexpr int kStride = sizeof(FootprintVertex);
   const std::size_t offset = draw.range.first * kStride;
   const gl::Buffer* buffer = &draw.receiver->footprints;
-  gl::AttributeBinding bindings[7];
+  gl::AttributeBinding bindings[8];
   bindings[0] = {VertexAttribute::position, buffer, 3, gl::AttributeType::float32, kStride, offset};
   for (std::size_t i = 0; i < 6; ++i) {
     bindings[i + 1] = {kVectors[i], buffer,
                        4,           gl::AttributeType::float32,
                        kStride,     offset + offsetof(FootprintVertex, x) + 16 * i};
   }
+  bindings[7] = {VertexAttribute::texcoord,  buffer,  4,
+                 gl::AttributeType::float32, kStride, offset + offsetof(FootprintVertex, facet)};
   encoder.draw(state, {.attributes = bindings, .count = draw.range.count});
 }
 
@@ -182,6 +191,10 @@ VolumeEnds volumeEnds(const LightFrame& frame, const WedgeVolumes& volumes) {
   return ends;
 }
 
+bool snapsCoarsely(const gl::Capabilities& capabilities) {
+  return capabilities.has(gl::Capability::highp) && capabilities.limits.subpixelBits < kEnoughSubpixelBits;
+}
+
 Result<ReceiverWedgePrograms> receiverWedgePrograms(const LightFrame& frame,
                                                     const std::vector<std::string>& defines) {
   ReceiverWedgePrograms programs;
@@ -189,6 +202,7 @@ Result<ReceiverWedgePrograms> receiverWedgePrograms(const LightFrame& frame,
     for (const bool beyond : {false, true}) {
       std::vector<std::string> variant = defines;
       if (cut) variant.push_back("HS_WEDGE_FOOTPRINT");
+      if (cut && snapsCoarsely(frame.capabilities)) variant.push_back("HS_WEDGE_EXACT");
       if (!beyond) variant.push_back("HS_WEDGE_CLIP");
       auto linked = frame.programs.get({"wedge_receiver.vert", "wedge_receiver.frag", variant});
       if (!linked) return linked.error();
@@ -218,6 +232,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
   gl::Encoder& encoder = context.encoder;
   gl::Context& gl = encoder.context();
   const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight(volumes.plane));
+  const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.centerWorld);
   gl::Program* current = nullptr;
   for (const ReceiverDraw& draw : draws) {
     const DrawItem& item = items[draw.item];
@@ -226,16 +241,20 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
       current = &program;
       encoder.useProgram(program);
       program.set(gl, "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
+      program.set(gl, "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
+      program.set(gl, "u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
+      program.set(gl, "u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 0.0f));
+      program.set(gl, "u_receiverRayY", glm::vec4(glm::vec3(rays.rayY), 0.0f));
     }
     program.set(gl, "u_clipFromObject", glm::mat4(clipFromWorld * item.worldFromObject));
     gl::DrawState state{.depth = {.test = gl::Compare::lequal},
                         .cull = hiddenFaces(item, view.eyeWorld, view.nearReach),
                         .blend = blend};
+    program.set(gl, "u_lightFromObject", glm::mat4(lightFromWorld * item.worldFromObject));
     if (draw.receiver->cut) {
-      state.polygonOffset = kFootprintOffset;
+      state.polygonOffset = footprintOffset(gl.capabilities());
       drawFootprints(encoder, state, draw);
     } else {
-      program.set(gl, "u_lightFromObject", glm::mat4(lightFromWorld * item.worldFromObject));
       setPiece(gl, program, volumes, draw.piece);
       state.polygonOffset = kWholeOffset;
       state.scissor = draw.scissor;

@@ -64,6 +64,10 @@ class WedgeReceivers {
   std::map<const void*, WedgeReceiver> receivers_;  ///< by the object's geometry
 };
 
+/// Whether this device's rasteriser moves vertices so much that narrow penumbrae show it. Footprints then
+/// find their place by the pixel's ray, which only fragments with highp can.
+bool snapsCoarsely(const gl::Capabilities& capabilities);
+
 /// Programs of wedge_receiver.frag: of footprints and of whole receivers, for both parts.
 struct ReceiverWedgePrograms {
   gl::Program* byKind[2][2] = {};  ///< [cut][beyond]

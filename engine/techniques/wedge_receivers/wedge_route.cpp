@@ -11,8 +11,6 @@ using framegraph::PassDesc;
 /// Draws of whole receivers, and vertices that they process, up to which `auto` lets receivers carry the
 /// silhouettes.
 constexpr std::size_t kMostDraws = 64, kMostVertices = 65536;
-/// Of the rasteriser, for penumbrae of a few pixels: footprints have vertices of their own.
-constexpr int kEnoughSubpixelBits = 6;
 
 std::vector<WedgeGroup> allTogether(const WedgePieces& pieces) {
   return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
@@ -30,17 +28,17 @@ std::vector<std::string> definesOf(WedgeMix mix) {
 }  // namespace
 
 SettingInfo routeSetting(const std::string& key) {
-  return {key,
-          SettingType::choice,
-          "auto",
-          0,
-          0,
-          {"auto", "screen", "receivers"},
-          "screen draws wedges as volumes and reads the receivers' depth; receivers draws what is shadowed, "
-          "silhouettes projected at its vertices, without depth texture and exact without highp; auto takes "
-          "receivers for those of few triangles, and for others unless they need more than 64 draws; screen "
-          "on devices "
-          "with highp and less than 6 bits of subpixel precision"};
+  return {
+      key,
+      SettingType::choice,
+      "auto",
+      0,
+      0,
+      {"auto", "screen", "receivers"},
+      "screen draws wedges as volumes and reads the receivers' depth; receivers draws what is shadowed, "
+      "silhouettes projected at its vertices, without depth texture and exact without highp; auto takes "
+      "receivers for those of few triangles, and for others unless they need more than 64 draws, or any on "
+      "devices with highp that snap vertices coarsely"};
 }
 
 Status WedgeRoute::declareGroup(const LightFrame& frame, std::size_t index, const std::string& name,
@@ -119,19 +117,12 @@ Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view
   route.volumes_ = volumes_.updatePieces(frame);
   route.groups_ = grouping(route.volumes_->pieces);
   VolumeEnds ends;
-  const bool highp = frame.capabilities.has(gl::Capability::highp);
-  const bool snaps = highp && frame.capabilities.limits.subpixelBits < kEnoughSubpixelBits;
-  if (setting == "auto" && snaps) {
-    frame.graph.noteSkipped(wedgePassName(frame, "wedges drawn by receivers"),
-                            "this device snaps vertices to " +
-                                std::to_string(1 << frame.capabilities.limits.subpixelBits) +
-                                "ths of a pixel, which narrow penumbrae show");
-  } else if (setting != "screen") {
+  if (setting != "screen") {
+    const std::size_t mostDraws = snapsCoarsely(frame.capabilities) ? 0 : kMostDraws;
     auto draws = receivers_[frame.lightIndex].update(frame, *route.volumes_, route.groups_);
     if (!draws) return draws.error();
     const std::string count = std::to_string(draws->wholeDraws) + " draws of receivers with many triangles";
-    if (setting == "receivers" ||
-        (draws->wholeDraws <= kMostDraws && draws->wholeVertices <= kMostVertices)) {
+    if (setting == "receivers" || (draws->wholeDraws <= mostDraws && draws->wholeVertices <= kMostVertices)) {
       frame.graph.noteSkipped(wedgePassName(frame, "wedge volumes"),
                               "receivers carry the projected silhouettes, with " + count);
       route.draws_ = std::move(*draws);

@@ -54,9 +54,9 @@ class WedgeRoutes {
   /// Which casters are drawn together.
   using Grouping = std::vector<WedgeGroup> (*)(const WedgePieces& pieces);
   /// `setting` is the value of a routeSetting(). With `auto`, receivers of few triangles carry the
-  /// silhouettes; so do all others where that takes at most 64 draws and 65,536 vertices, else they meet
-  /// volumes that end behind them. Everything is done on the screen where fragments have highp and the
-  /// rasteriser less than 6 bits below a pixel. The frame's notes tell. Errors: outOfMemory, shaderFailed.
+  /// silhouettes; so do all others where that takes at most 64 draws and 65,536 vertices (none where the
+  /// device snapsCoarsely()), else they meet volumes that end behind them. The frame's notes tell. Errors:
+  /// outOfMemory, shaderFailed.
   Result<WedgeRoute> choose(const LightFrame& frame, std::string_view setting, Grouping grouping);
   /// Adds up all casters in one pass: exact where one caster shadows a receiver. Errors: those of choose().
   Result<ReceiverShading> declareSums(const LightFrame& frame, std::string_view setting);
