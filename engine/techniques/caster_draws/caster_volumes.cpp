@@ -48,10 +48,12 @@ class Collector {
   Collector(CasterVolumes& result, const VolumeReach& reach) : result_(result), reach_(reach) {}
 
   void add(const SubLightLoops& loops, std::uint32_t subLight) {
-    for (const CasterLoops& caster : loops.casters) {
+    for (std::uint32_t c = 0; c < loops.casters.size(); ++c) {
+      const CasterLoops& caster = loops.casters[c];
       if (caster.loops.empty()) continue;
       const float splitI = caster.low.z * (1.0f - kBehind);
-      CasterVolume volume{.subLight = subLight, .extent = extentOf(caster, loops.light), .splitI = splitI};
+      CasterVolume volume{
+          .subLight = subLight, .caster = c, .extent = extentOf(caster, loops.light), .splitI = splitI};
       if (volume.extent.nearest >= reach_.end) continue;
       // A little of both sides of the split, so that rounding leaves no receiver outside.
       const double split = 1.0 / static_cast<double>(splitI), margin = 0.1 * kBehind * split;
@@ -62,7 +64,7 @@ class Collector {
         const CasterLoops& layer = loops.layers[caster.firstLayer + l];
         if (layer.loops.empty()) continue;
         CasterVolume layerVolume{
-            .subLight = subLight, .extent = extentOf(layer, loops.light), .splitI = splitI};
+            .subLight = subLight, .caster = c, .extent = extentOf(layer, loops.light), .splitI = splitI};
         layerVolume.list = addList(layer, static_cast<std::uint8_t>(subLight), result_.lists);
         addPart(layerVolume, WedgePart::beyond, split - margin, reach_.end);
       }
@@ -82,7 +84,7 @@ class Collector {
 
 bool shareReceivers(const CasterVolume& a, const CasterVolume& b) {
   // The two parts of one caster never answer for the same receiver.
-  if (a.part != b.part && a.splitI == b.splitI && a.list == b.list) return false;
+  if (a.part != b.part && a.caster == b.caster) return false;
   return a.extent.meetsBetween(b.extent, std::max(a.from, b.from), std::min(a.end, b.end));
 }
 

@@ -13,6 +13,7 @@ namespace halfshadow::techniques {
 /// Receivers at heights from `from` to `end` that a caster, or a layer of one, can shadow.
 struct CasterVolume {
   std::uint32_t subLight = 0;
+  std::uint32_t caster = 0;  ///< of the sub-light
   std::uint32_t batch = 0;
   WedgePart part = WedgePart::beyond;
   WedgeExtent extent;
