@@ -9,7 +9,6 @@
 namespace halfshadow::profile {
 namespace {
 constexpr std::array<const char*, 3> kSkips = {"branch", "loop", "stencil"};
-constexpr std::array<const char*, 3> kRoutes = {"gather", "scatter", "fetch"};
 /// The setting's two values first.
 constexpr std::array<const char*, 3> kPrefilters = {"nbuffer", "sat", "mipmap"};
 
@@ -93,35 +92,64 @@ Status addPrefilter(measure::EngineSession& session, const scene::SceneDescripti
   return {};
 }
 
-/// The same for the route of wedges-cells: unchanged frames, since gathering keeps its lists and what moves
-/// differs from host to host.
-Status addWedgeRoute(measure::EngineSession& session, const scene::SceneDescription& scene,
-                     const InterleavedOptions& options, measure::Json& profile) {
+bool has(measure::EngineSession& session, const std::string& capability) {
+  for (std::size_t i = 0; i < session.engine().capabilityCount(); ++i) {
+    const CapabilityRecord record = session.engine().capability(i);
+    if (record.name == capability) return record.available;
+  }
+  return false;
+}
+
+/// What the setting `key` of a technique made from silhouettes is best at, recorded as `profileKey`.
+struct RouteChoice {
+  const char* technique;
+  const char* key;
+  const char* profileKey;
+  std::vector<const char*> values;
+};
+
+/// The same for the ways of combining silhouettes: unchanged frames, since gathering keeps its lists and what
+/// moves differs from host to host.
+Status addRoute(measure::EngineSession& session, const scene::SceneDescription& scene,
+                const InterleavedOptions& options, const RouteChoice& choice, measure::Json& profile) {
   std::vector<measure::Configuration> configurations;
-  for (const char* route : kRoutes)
-    configurations.push_back({"wedges-cells", {{"wedges-cells.route", route}}});
+  for (const char* value : choice.values) configurations.push_back({choice.technique, {{choice.key, value}}});
   const auto times = interleavedTimes(session, scene, configurations, options);
   if (!times) return times.error();
   if (!times->front().supported) return {};
   measure::Json measured;
   std::string list;
   std::size_t best = 0;
-  for (std::size_t i = 0; i < kRoutes.size(); ++i) {
+  for (std::size_t i = 0; i < choice.values.size(); ++i) {
     const FrameTimes& t = (*times)[i];
-    measured[kRoutes[i]] = t.frameStatic.medianMs;
-    list += (i ? ", " : "") + std::string(kRoutes[i]) + " " + milliseconds(t.frameStatic.medianMs) + " (" +
-            milliseconds(t.frame.medianMs) + ")";
+    measured[choice.values[i]] = t.frameStatic.medianMs;
+    list += (i ? ", " : "") + std::string(choice.values[i]) + " " + milliseconds(t.frameStatic.medianMs) +
+            " (" + milliseconds(t.frame.medianMs) + ")";
     if (t.frameStatic.medianMs < (*times)[best].frameStatic.medianMs) best = i;
   }
   profile["choices"].push_back(
-      {{"setting", "wedges-cells.route"},
-       {"value", kRoutes[best]},
+      {{"setting", choice.key},
+       {"value", choice.values[best]},
        {"ms", measured},
        {"reason", "unchanged frames (with a moving light), " + conditions(options) + list + " ms"}});
-  profile["settings"].push_back({{"key", "wedge_route"},
-                                 {"value", kRoutes[best]},
+  profile["settings"].push_back({{"key", choice.profileKey},
+                                 {"value", choice.values[best]},
                                  {"reason", "least time of an unchanged frame: " +
                                                 milliseconds((*times)[best].frameStatic.medianMs) + " ms"}});
+  return {};
+}
+
+Status addWedgeRoutes(measure::EngineSession& session, const scene::SceneDescription& scene,
+                      const InterleavedOptions& options, measure::Json& profile) {
+  RouteChoice choices[] = {{"wedges-cells", "wedges-cells.route", "wedge_route", {"gather", "scatter"}},
+                           {"wedges-blended", "wedges-blended.merge", "wedge_merge", {"gather", "core"}}};
+  if (has(session, "blend-minmax")) choices[1].values.push_back("minmax");
+  if (has(session, "framebuffer-fetch")) {
+    for (RouteChoice& choice : choices) choice.values.push_back("fetch");
+  }
+  for (const RouteChoice& choice : choices) {
+    if (Status status = addRoute(session, scene, options, choice, profile); !status) return status;
+  }
   return {};
 }
 }  // namespace
@@ -131,7 +159,7 @@ Result<measure::Json> deviceProfile(measure::EngineSession& session, const scene
   measure::Json profile{{"driver", measure::driverJson(session.engine().driver())},
                         {"settings", measure::Json::array()},
                         {"choices", measure::Json::array()}};
-  for (const auto add : {addFilterSkip, addPrefilter, addWedgeRoute}) {
+  for (const auto add : {addFilterSkip, addPrefilter, addWedgeRoutes}) {
     if (Status status = add(session, scene, options, profile); !status) return status.error();
   }
   return profile;
