@@ -108,6 +108,11 @@ Status WedgeReceivers::cut(const LightFrame& frame, const WedgeVolumes& volumes,
 Result<ReceiverDraws> WedgeReceivers::update(const LightFrame& frame, const WedgeVolumes& volumes,
                                              std::span<const WedgeGroup> groups) {
   if (contentKey_ != volumes.contentKey) {
+    // Objects that were removed go, too; what the camera does not see now is cut when it does.
+    std::erase_if(receivers_, [&](const auto& kept) {
+      return std::ranges::none_of(frame.receivers,
+                                  [&](const DrawItem& item) { return item.geometry == kept.first; });
+    });
     for (auto& [geometry, receiver] : receivers_) receiver.revision = 0;
     contentKey_ = volumes.contentKey;
   }

@@ -92,6 +92,17 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
   return stream;
 }
 
+/// Of the volumes' lengths, the share that lies before their ends.
+double lengthKept(const WedgePieces& pieces, std::span<const double> ends) {
+  double kept = 0.0, whole = 0.0;
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const double nearest = pieces.pieces[i].extent.nearest;
+    kept += std::max(ends[i] - nearest, 0.0);
+    whole += std::max(kFarthest - nearest, 0.0);
+  }
+  return kept / std::max(whole, 1e-9);
+}
+
 std::uint64_t keyOf(const LightFrame& frame, double farthest, double reach) {
   return planner::combineKeys(planner::combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest)),
                               std::bit_cast<std::uint64_t>(reach));
@@ -150,6 +161,7 @@ Status WedgeVolumeCache::upload(const LightFrame& frame, std::span<const double>
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
   const std::uint64_t key = planner::combineKeys(volumes.contentKey, endsKey);
   volumes.trimmed = !ends.empty();
+  volumes.small = volumes.trimmed && lengthKept(volumes.pieces, ends) < 0.5;
   if (volumes.streamKey == key || volumes.pieces.pieces.empty()) return {};
   volumes.streamKey = 0;
   const bool highp = frame.capabilities.has(gl::Capability::highp);
@@ -185,7 +197,7 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   program.set(encoder.context(), "u_pieceGrid", glm::vec4(unit.x, unit.z, 1.0 / unit.x, 1.0 / unit.z));
   const auto hull = eyeHull(view, plane);
   const VolumeReach reach{.end = kFarthest, .sideways = volumes.reach};
-  const bool small = part == WedgePart::beside || volumes.trimmed;
+  const bool small = part == WedgePart::beside || volumes.small;
   if (small) {
     // Few receivers lie in these volumes, and most of the screen behind them: the farther sides reject it.
     state.cull = gl::Cull::front;

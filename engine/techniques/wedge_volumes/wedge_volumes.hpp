@@ -25,6 +25,7 @@ struct WedgeVolumes {
   glm::dvec3 unit{1.0};  ///< of a, b and h in the vertex stream: the grid's steps where fragments have highp
   std::uint64_t streamKey = 0;  ///< of what the buffers hold
   bool trimmed = false;         ///< volumes end before the farthest receiver
+  bool small = false;           ///< by more than half of their length, on average
   gl::Buffer vertices, indices;
 };
 
