@@ -7,11 +7,11 @@ varying HS_HIGHP vec2 v_gradient;
 #ifndef HS_NO_HIGHP
 #define HS_EXACT_PLACE
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
-uniform HS_HIGHP vec3 u_eyeLight;  // the eye in (a, b, h)
 uniform HS_HIGHP mat3 u_rayLight;  // direction of a pixel's ray in (a, b, h) from (x, y, 1), both 0 to 1
 #endif
 #endif
-varying HS_HIGHP vec4 v_map;  // (a, b, -, h) in the light's coordinates
+uniform HS_HIGHP vec3 u_eyeLight;  // the eye in (a, b, h)
+varying HS_HIGHP vec4 v_map;       // (a, b, -, h) in the light's coordinates
 uniform HS_HIGHP sampler2D u_cellTiles;
 uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = tangent · xy + zw
 uniform HS_HIGHP vec4 u_tileAtlas;      // xy: columns and rows of the receiver's tiles, zw: first texel
@@ -40,10 +40,12 @@ void hs_findList() {
   // that. The pixel's own ray meets the facet's plane where it should.
   HS_HIGHP vec3 ray = u_rayLight * vec3(gl_FragCoord.xy * u_viewport.xy + u_viewport.zw, 1.0);
   HS_HIGHP float across = dot(n, ray);
-  HS_HIGHP vec3 met = u_eyeLight + ray * ((1.0 - dot(n, u_eyeLight)) / (abs(across) < 1e-12 ? 1e-12 : across));
-  // Not where the facet is seen edge-on.
-  HS_HIGHP vec3 moved = abs(met - position);
-  if (max(max(moved.x, moved.y), moved.z) < 0.01 * max(max(abs(position.x), abs(position.y)), position.z)) {
+  HS_HIGHP float along = (1.0 - dot(n, u_eyeLight)) / (abs(across) < 1e-12 ? 1e-12 : across);
+  HS_HIGHP vec3 met = u_eyeLight + along * ray;
+  // By no more than half a pixel: what is farther off is a neighbour's fragment, or numbers that cancelled.
+  HS_HIGHP vec3 moved = abs(met - position), pixel = abs(along * u_viewport.x * u_rayLight[0]);
+  HS_HIGHP float slant = min(length(n) * length(ray) / max(abs(across), 1e-12), 8.0);
+  if (max(max(moved.x, moved.y), moved.z) < 0.5 * slant * max(max(pixel.x, pixel.y), pixel.z)) {
     position = met;
     reciprocal = 1.0 / max(position.z, u_listCenter.w);
   }
@@ -62,7 +64,8 @@ void hs_findList() {
 #ifndef HS_FACET_NORMAL
   HS_HIGHP vec3 n = cross(dFdx(position), dFdy(position));
 #endif
-  n *= dot(n, position) > 0.0 ? -1.0 : 1.0;
+  // Towards the eye: that side of the surface is seen.
+  n *= dot(n, u_eyeLight - position) < 0.0 ? -1.0 : 1.0;
   HS_HIGHP vec3 lift = u_lift * n;
   position += lift * inversesqrt(max(dot(n, lift), HS_SMALL));
 #endif

@@ -7,6 +7,7 @@ struct HS_Walk {
   HS_HIGHP vec3 previous;
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
+  HS_Cells oneSided;  // what the loop covers so far, if it is one-sided
 #else
   HS_HIGHP vec2 previous;
 #endif
@@ -17,6 +18,7 @@ void hs_startWalk(out HS_Walk walk) {
   walk.previous = vec3(0.0);
   walk.reached = walk.firstReached = vec2(0.0);
   walk.begun = 0.0;
+  walk.oneSided = HS_CELLS_ALL(0.0);
 #else
   walk.previous = vec2(0.0);
 #endif
@@ -24,7 +26,11 @@ void hs_startWalk(out HS_Walk walk) {
 
 // Where a vertex projects onto the light, relative to the sub-light's centre, in its half sides.
 HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
+#ifdef HS_WHOLE_LIGHT
+  return hs_onLight(projected);
+#else
   return 2.0 * hs_onLight(projected) - side;
+#endif
 }
 
 // `projected`, `tags`: of hs_nextVertex().
@@ -44,10 +50,12 @@ void hs_walk(inout HS_Walk walk, inout HS_Cells covered, HS_HIGHP vec3 projected
     walk.begun = 1.0;
   }
   // An edge that starts a loop has no length: from = to.
-  hs_addFarChord(covered, walk.reached, from, seen ? 1.0 : 0.0);
-  hs_addEdge(covered, seen ? from : to, to);
+  HS_Cells edge = HS_CELLS_ALL(0.0);
+  hs_addFarChord(edge, walk.reached, from, seen ? 1.0 : 0.0);
+  hs_addEdge(edge, seen ? from : to, to);
   walk.reached = seen ? to : walk.reached;
-  hs_addFarChord(covered, walk.reached, walk.firstReached, walk.begun * tags.closes);
+  hs_addFarChord(edge, walk.reached, walk.firstReached, walk.begun * tags.closes);
+  hs_addPart(covered, walk.oneSided, edge, tags.oneSided, tags.closes);
   walk.previous = projected;
 #else
   HS_HIGHP vec2 point = hs_onSubLight(projected, tags.side);

@@ -28,9 +28,10 @@ HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 receiver) {
 }
 
 // Whether a loop starts here (no edge leads here) or closes, and what ends: 1 the caster, 2 the sub-light, 3 the
-// list. `side`: the sub-light's, in half sides of the light.
+// list. `side`: the sub-light's, in half sides of the light. `oneSided`: the loop counts only where what it covers
+// is positive.
 struct HS_Tags {
-  HS_HIGHP float starts, closes, ends;
+  HS_HIGHP float starts, closes, ends, oneSided;
   HS_HIGHP vec2 side;
 };
 
@@ -50,7 +51,9 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   tags.starts = step(31.5, rest);
   rest -= 32.0 * tags.starts;
   tags.closes = step(15.5, rest);
-  tags.ends = rest - 16.0 * tags.closes;
+  rest -= 16.0 * tags.closes;
+  tags.oneSided = step(7.5, rest);
+  tags.ends = rest - 8.0 * tags.oneSided;
   at.x += 2.0 * u_cellTexel.z;
   at += step(1.0, at.x) * vec2(-1.0, u_cellTexel.w);
   return value * u_listScale.xyz * bytes.y + origin;

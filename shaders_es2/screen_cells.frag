@@ -2,6 +2,16 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Visibility from light cells that casters left on the screen: their mean.
 #include "tap_count.glsl"
+#ifdef HS_CASTING_RECEIVER
+// Among a caster's own surfaces its silhouettes do not tell what it covers: these receivers walk lists of faces.
+#define HS_SUB_LIGHTS 4.0
+#include "cell_coverage.glsl"
+#include "list_vertices.glsl"
+#include "caster_lists.glsl"
+#include "cell_walk.glsl"
+#include "gathered_cells.glsl"
+float halfshadow_visibility() { return 0.25 * hs_gatheredLight(); }
+#else
 uniform HS_HIGHP sampler2D u_cells0;
 #if HS_CELL_TARGETS >= 4
 uniform HS_HIGHP sampler2D u_cells1;
@@ -18,6 +28,7 @@ float halfshadow_visibility() {
 #endif
   return dot(sum, vec4(0.25 / float(HS_CELL_TARGETS)));
 }
+#endif
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif

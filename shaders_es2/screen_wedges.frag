@@ -3,6 +3,21 @@
 // Visibility from what wedges left on the screen: sums of coverage, shares of
 // quadrants that are covered, or the visibility itself.
 #include "tap_count.glsl"
+#ifdef HS_CASTING_RECEIVER
+// Among a caster's own surfaces its silhouettes do not tell what it covers: these receivers walk lists of faces.
+#ifdef HS_WEDGE_SUMS
+#define HS_SUM_CASTERS
+#endif
+#define HS_CELLS 16
+#define HS_WHOLE_LIGHT
+#define HS_SUB_LIGHTS 1.0
+#include "cell_coverage.glsl"
+#include "list_vertices.glsl"
+#include "caster_lists.glsl"
+#include "cell_walk.glsl"
+#include "gathered_cells.glsl"
+float halfshadow_visibility() { return hs_gatheredLight(); }
+#else
 #include "wedge_sums.glsl"
 uniform HS_HIGHP sampler2D u_wedges;
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
@@ -18,6 +33,7 @@ float halfshadow_visibility() {
   return stored.r;
 #endif
 }
+#endif
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif

@@ -48,6 +48,18 @@ void hs_clearSums(out HS_Sums sums) {
 #endif
 }
 
+#ifdef HS_CASTING_RECEIVER
+void hs_addSums(inout HS_Sums sums, HS_Sums others) {
+  sums.share += others.share;
+  sums.reachX = max(sums.reachX, others.reachX);
+  sums.reachY = max(sums.reachY, others.reachY);
+#ifdef HS_CENTRES
+  sums.momentX += others.momentX;
+  sums.momentY += others.momentY;
+#endif
+}
+#endif
+
 // Means of c = clamp(x, 0, 1) and of c² / 2 while x runs evenly from x0 to x1. Short runs and runs outside
 // take the middle: there the quotient would cancel.
 #ifdef HS_CENTRES

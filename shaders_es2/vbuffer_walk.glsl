@@ -7,6 +7,7 @@ struct HS_Walk {
   HS_HIGHP vec3 previous;
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
+  HS_Sums oneSided;  // of the loop so far, if it is one-sided
 #else
   HS_HIGHP vec2 previous;
 #endif
@@ -17,6 +18,7 @@ void hs_startWalk(out HS_Walk walk) {
   walk.previous = vec3(0.0);
   walk.reached = walk.firstReached = vec2(0.0);
   walk.begun = 0.0;
+  hs_clearSums(walk.oneSided);
 #else
   walk.previous = vec2(0.0);
 #endif
@@ -38,10 +40,22 @@ void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS
     walk.reached = from;
     walk.begun = 1.0;
   }
-  hs_addFarChord(sums, walk.reached, seen ? from : walk.reached);
-  hs_addEdge(sums, seen ? from : to, to);
+  bool twoSided = tags.oneSided < 0.5;
+  HS_Sums parts = walk.oneSided;
+  if (twoSided) parts = sums;
+  hs_addFarChord(parts, walk.reached, seen ? from : walk.reached);
+  hs_addEdge(parts, seen ? from : to, to);
   walk.reached = seen ? to : walk.reached;
-  hs_addFarChord(sums, walk.reached, walk.begun * tags.closes > 0.5 ? walk.firstReached : walk.reached);
+  hs_addFarChord(parts, walk.reached, walk.begun * tags.closes > 0.5 ? walk.firstReached : walk.reached);
+  if (twoSided) {
+    sums = parts;
+  } else {
+    walk.oneSided = parts;
+    if (tags.closes > 0.5) {
+      if (dot(parts.share, vec4(1.0)) > 0.0) hs_addSums(sums, parts);
+      hs_clearSums(walk.oneSided);
+    }
+  }
   walk.previous = projected;
 #else
   HS_HIGHP vec2 point = hs_onLight(projected);

@@ -8,31 +8,14 @@
 #define HS_SUB_LIGHTS 4.0
 #include "caster_lists.glsl"
 #include "cell_walk.glsl"
+#include "gathered_cells.glsl"
 
 float halfshadow_class() {
   hs_findList();
   return hs_listed ? -1.0 : 0.25 * hs_lit;
 }
 
-float halfshadow_visibility() {
-  hs_findList();
-  HS_HIGHP vec2 at = hs_firstVertex();
-  HS_HIGHP vec3 origin = hs_listOrigin();
-  HS_Walk walk;
-  hs_startWalk(walk);
-  HS_Cells visible = HS_CELLS_ALL(1.0);
-  HS_Cells covered = HS_CELLS_ALL(0.0);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
-    if (!hs_listed) break;
-    HS_Tags tags;
-    HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
-    hs_walk(walk, covered, projected, tags);
-    hs_foldCaster(visible, covered, step(0.5, tags.ends));
-    hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
-    if (tags.ends > 2.5) break;
-  }
-  return 0.25 * hs_lit;
-}
+float halfshadow_visibility() { return 0.25 * hs_gatheredLight(); }
 #ifdef HS_SHADED
 #include "shade.glsl"
 #endif

@@ -11,6 +11,10 @@
 
 namespace halfshadow::scene {
 namespace {
+/// A part with few concave edges and dents no deeper than this share of its radius counts as convex.
+constexpr double kShallowDent = 0.02;
+constexpr std::uint32_t kMostConcaveEdges = 16;
+
 /// Pairs the two directions of the edge [first, last); what is left over has no opposite.
 void pairEdge(std::span<const EdgeUse> uses, std::vector<EdgeRecord>& records) {
   const std::uint32_t low = uses.front().low(), high = uses.front().high();
@@ -128,7 +132,37 @@ void HalfEdgeMesh::computePlanes() {
       for (const glm::dvec3& p : {a, b, c}) part.bounds.include(p);
     }
   }
+  for (CasterPart& part : parts_) part.convex = isConvex(part);
   for (FaceCluster& cluster : clusters_) fitCluster(cluster, faces_, positions_, planes_, origin_);
+}
+
+bool HalfEdgeMesh::isConvex(const CasterPart& part) const {
+  // What rounding to single precision can do to a plane of this part.
+  const double flat = 4e-6 * part.bounds.radius() + 4e-7 * glm::length(part.bounds.center() - origin_);
+  const auto above = [&](std::uint32_t face, std::uint32_t vertex) {
+    return glm::dot(glm::dvec3(planes_[face]), glm::dvec3(positions_[vertex]) - origin_) +
+           double(planes_[face].w);
+  };
+  const auto withinOf = [&](std::uint32_t face, std::uint32_t other, double tolerance) {
+    for (int k = 0; k < 3; ++k) {
+      const double height = above(face, faces_[other][k]);
+      if ((part.closed ? height : std::abs(height)) > tolerance) return false;
+    }
+    return true;
+  };
+  const double dent = kShallowDent * part.bounds.radius();
+  std::uint32_t concave = 0;
+  for (const EdgeRecord& edge : edges().subspan(part.firstEdge, part.edgeCount)) {
+    if (edge.opposite == kNoFace ||
+        (withinOf(edge.face, edge.opposite, flat) && withinOf(edge.opposite, edge.face, flat)))
+      continue;
+    // Every dent has concave edges at its bottom, and its rim stands above their faces.
+    if (++concave > kMostConcaveEdges) return false;
+    for (std::uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
+      if (!withinOf(edge.face, f, dent) || !withinOf(edge.opposite, f, dent)) return false;
+    }
+  }
+  return true;
 }
 
 std::string describe(const CasterPart& part) {

@@ -59,6 +59,8 @@ struct CasterPart {
   /// both sides: all its faces count, turned towards the light; its two sides are kept apart, because where
   /// they meet at a silhouette edge they cover the same ground twice.
   bool closed = true;
+  /// It is closed and convex, or an even sheet: cut at any plane its silhouette still tells what it covers.
+  bool convex = false;
   Bounds bounds;  ///< object space
 };
 
@@ -106,6 +108,7 @@ class HalfEdgeMesh {
   void addPart(std::span<const glm::uvec3> faces, CasterPart part);
   void copyPositions(const TriangleMesh& mesh);
   void computePlanes();
+  bool isConvex(const CasterPart& part) const;
   std::vector<glm::vec3> positions_;
   std::vector<std::uint32_t> sourceVertex_;  ///< in the TriangleMesh, of each welded vertex
   std::vector<glm::uvec3> faces_;

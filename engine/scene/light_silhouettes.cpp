@@ -54,6 +54,7 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
                                     .low = glm::vec3(1e30f),
                                     .high = glm::vec3(-1e30f),
                                     .closed = caster.mesh->parts()[part.part].closed,
+                                    .turnedAway = part.turnedAway,
                                     .enclosesLight = part.enclosesLight};
     const HeightRange range = heightRange(caster.mesh->parts()[part.part].bounds, lightFromObject, minHeight);
     if (range == HeightRange::through) {

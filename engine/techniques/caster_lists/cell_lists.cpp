@@ -3,6 +3,7 @@
 #include "techniques/caster_lists/cell_lists.hpp"
 
 #include <algorithm>
+#include <map>
 
 namespace halfshadow::techniques {
 namespace {
@@ -12,19 +13,43 @@ constexpr int kBlock = 8;
 
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
+  /// A caster among whose surfaces some receivers of the block stand: its faces that matter there.
+  struct Near {
+    const CasterLoops* caster = nullptr;
+    const NearSurface* surface = nullptr;
+    FacetChoice choice = FacetChoice::asLightSees;
+    std::span<const std::uint32_t> facets;
+  };
   std::vector<CasterLoops> partial;
+  std::vector<Near> near;
   bool full = false;
 };
 
-/// Appends what the fragments walk. Where all receivers lie behind the whole caster, edges that cover nothing
-/// are left out; elsewhere fragments cut loops at their own height and need them whole.
+/// Faces in reach of a block, the same for all sub-lights.
+class BlockFacets {
+ public:
+  void clear() { facets_.clear(); }
+  std::span<const std::uint32_t> of(const CasterLoops& caster, const NearSurface& surface,
+                                    const TangentBox& receivers) {
+    const auto [found, isNew] = facets_.try_emplace({caster.object, caster.part});
+    if (isNew) facetsInReach(surface, receivers, found->second);
+    return found->second;
+  }
+
+ private:
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facets_;
+};
+
+/// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
+/// out; others fragments cut at their own height and need them whole.
 void appendCaster(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
                   std::uint8_t subLight, ListedEdges edges, std::vector<CellRecord>& records) {
   const std::size_t before = records.size();
-  const bool whole = edges == ListedEdges::all || caster.low.z < receivers.iHigh;
   const OuterSides sides(light, receivers);
   for (const CasterLoops::Loop& loop : caster.loops) {
     const auto at = [&](std::uint32_t k) { return caster.points[loop.first + k % loop.count]; };
+    bool whole = edges == ListedEdges::all || loop.oneSided;
+    for (std::uint32_t k = 0; k < loop.count; ++k) whole = whole || at(k).z < receivers.iHigh;
     bool chained = false;
     for (std::uint32_t k = 0; k <= loop.count; ++k) {
       const bool leads = k < loop.count &&
@@ -33,7 +58,8 @@ void appendCaster(const CasterLoops& caster, const SubLight& light, const Tangen
         records.push_back({.ti = at(k),
                            .subLight = subLight,
                            .startsLoop = !chained,
-                           .closesLoop = whole && k == loop.count});
+                           .closesLoop = whole && k == loop.count,
+                           .oneSided = loop.oneSided});
       }
       chained = leads;
     }
@@ -61,41 +87,74 @@ TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
   return all;
 }
 
-void simplifyAll(const SubLightLoops& loops, const TangentBox& receivers, BlockCasters& result) {
+void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
+                 const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
   result.full = false;
   result.partial.clear();
+  result.near.clear();
   thread_local CasterLoops simplified;
-  const auto add = [&](std::span<const CasterLoops> casters) {
-    for (const CasterLoops& caster : casters) {
-      const bool behind = caster.low.z >= receivers.iHigh;
-      if (behind && caster.layerCount > 0) continue;
-      const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
-      if (coverage == Coverage::partial) result.partial.push_back(simplified);
-      result.full = result.full || coverage == Coverage::full;
-    }
+  const OuterSides sides(loops.light, receivers);
+  const auto add = [&](const CasterLoops& caster) {
+    const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
+    if (coverage == Coverage::partial) result.partial.push_back(simplified);
+    result.full = result.full || coverage == Coverage::full;
   };
-  add(loops.casters);
+  const auto addNear = [&](const CasterLoops& caster) {
+    BlockCasters::Near near{.caster = &caster,
+                            .surface = &surfaces.of(caster.object, caster.part),
+                            .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
+                                                                          : FacetChoice::asLightSees};
+    if (near.surface->facets.empty()) return false;
+    near.facets = facets.of(caster, *near.surface, receivers);
+    if (!near.facets.empty()) result.near.push_back(near);
+    return true;
+  };
   for (const CasterLoops& caster : loops.casters) {
-    if (caster.low.z >= receivers.iHigh) {
-      add(std::span(loops.layers).subspan(caster.firstLayer, caster.layerCount));
+    if (caster.low.z >= receivers.iHigh && caster.layerCount > 0) {
+      for (std::uint32_t l = 0; l < caster.layerCount; ++l) add(loops.layers[caster.firstLayer + l]);
+      continue;
     }
+    const bool among = caster.low.z < receivers.iHigh && !caster.enclosesLight &&
+                       (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
+    if (among && sides.code(caster.low, caster.high) != 0) continue;
+    if (!among || !addNear(caster)) add(caster);
   }
-  if (result.full) result.partial.clear();
+  if (result.full) {
+    result.partial.clear();
+    result.near.clear();
+  }
 }
 
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
-                  const TangentBox& receivers, ListedEdges edges, std::vector<CellRecord>& records) {
+                  const ReceiverSet& set, ListedEdges edges, std::vector<CellRecord>& records) {
+  const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
   thread_local CasterLoops simplified;
   for (std::size_t s = 0; s < subLights.size(); ++s) {
     const std::size_t before = records.size();
+    const SubLightLoops& loops = subLights[s];
     bool full = block[s].full;
+    const auto add = [&](Coverage coverage) {
+      full = full || coverage == Coverage::full;
+      if (coverage != Coverage::partial) return;
+      appendCaster(simplified, loops.light, receivers, static_cast<std::uint8_t>(s), edges, records);
+      if (list.casters < 255) ++list.casters;
+    };
     for (std::size_t c = 0; c < block[s].partial.size() && !full; ++c) {
-      const Coverage coverage = simplify(block[s].partial[c], subLights[s].light, receivers, simplified);
-      full = coverage == Coverage::full;
-      if (coverage == Coverage::partial) {
-        appendCaster(simplified, subLights[s].light, receivers, static_cast<std::uint8_t>(s), edges, records);
-        if (list.casters < 255) ++list.casters;
+      add(simplify(block[s].partial[c], loops.light, receivers, simplified));
+    }
+    for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
+      const auto& [caster, surface, choice, facets] = block[s].near[c];
+      if (caster->low.z >= receivers.iHigh && caster->layerCount > 0) {
+        for (std::uint32_t l = 0; l < caster->layerCount && !full; ++l)
+          add(simplify(loops.layers[caster->firstLayer + l], loops.light, receivers, simplified));
+      } else if (caster->low.z >= receivers.iHigh) {
+        add(simplify(*caster, loops.light, receivers, simplified));
+      } else {
+        // Only of its own tiles the patches are known.
+        const bool own = choice == FacetChoice::asReceiversSee;
+        add(simplify(*surface, facets, loops.light,
+                     own ? set : ReceiverSet{.box = receivers, .plane = set.plane}, choice, simplified));
       }
     }
     if (full) {
@@ -112,16 +171,19 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
 }
 }  // namespace
 
-CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles, ListedEdges edges) {
+CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges) {
   CellLists lists;
   lists.tiles.resize(tiles.boxes.size());
   std::vector<BlockCasters> block(subLights.size());
+  BlockFacets facets;
   for (int y0 = 0; y0 < tiles.rows; y0 += kBlock) {
     for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
       const TangentBox all = blockBox(tiles, x0, y0);
       if (all.empty()) continue;
+      facets.clear();
       for (std::size_t s = 0; s < subLights.size(); ++s) {
-        simplifyAll(subLights[s], all, block[s]);
+        simplifyAll(subLights[s], surfaces, facets, all, receiver, block[s]);
       }
       for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
@@ -130,7 +192,9 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTile
             lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
             continue;
           }
-          lists.tiles[tile] = tileList(subLights, block, tiles.boxes[tile], edges, lists.records);
+          lists.tiles[tile] = tileList(
+              subLights, block, {tiles.boxes[tile], surfaces.plane(), tiles.patchesOf(tile), receiver.lift},
+              edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

@@ -21,6 +21,7 @@ struct CellRecord {
   std::uint8_t subLight = 0;
   bool startsLoop = false;  ///< no edge leads here
   bool closesLoop = false;
+  bool oneSided = false;  ///< of its loop, which counts only where what it covers is positive
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
 };
 
@@ -43,8 +44,17 @@ enum class ListedEdges {
   all        ///< whole loops: rectangles around what they cover need every side
 };
 
-/// `subLights`: one for each quarter of the light, or one for all of it.
-CellLists cellLists(std::span<const SubLightLoops> subLights, const ReceiverTiles& tiles, ListedEdges edges);
+inline constexpr std::uint32_t kNoObject = ~0u;
+
+struct ListedReceiver {
+  std::uint32_t ownObject = kNoObject;  ///< the receiver as a caster; then its tiles have patches
+  double lift = 0.0;                    ///< world units by which its fragments stand off their facets
+};
+
+/// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
+/// made of.
+CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges);
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
 TangentRect shadowedTangents(std::span<const SubLightLoops> subLights);

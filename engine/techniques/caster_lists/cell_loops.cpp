@@ -10,6 +10,11 @@ namespace {
 /// Shares of the receivers' range of reciprocal heights; beyond it a vertex is farther than every receiver.
 constexpr float kFarMargin = 1e-4f;
 
+/// Faces of a caster up to which it counts as coarse. Convex casters of more, seen from the centre of a
+/// quarter of the light, are wrong by at most .034 on their own surfaces (762 faces), at a third of the
+/// vertices.
+constexpr std::uint32_t kCoarseFaces = 64;
+
 /// Cuts a closed loop at i = iLow, dropping what is farther from the light.
 void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>& out) {
   out.clear();
@@ -86,7 +91,65 @@ int windingNumber(const std::vector<glm::vec3>& loop, const SubLight& light, con
   }
   return static_cast<int>(std::lround(angle / (2.0 * 3.14159265358979323846)));
 }
+
+float farEnd(const TangentBox& receivers) {
+  return receivers.iLow * (1.0f - kFarMargin);
+}
+
+enum class LoopKind { whole, oneSided };
+
+/// Collects the loops of one caster, simplified for the receivers.
+class Simplifier {
+ public:
+  Simplifier(const SubLight& light, const TangentBox& receivers, CasterLoops& result)
+      : light_(light), receivers_(receivers), sides_(light, receivers), result_(result) {}
+
+  void add(std::span<const glm::vec3> loop, LoopKind kind = LoopKind::whole) {
+    thread_local std::vector<glm::vec3> cut, kept;
+    thread_local std::vector<Judged> judged, collapsed;
+    cutFar(loop, farEnd(receivers_), cut);
+    if (cut.size() < 3) return;
+    judged.clear();
+    unsigned common = ~0u;
+    for (const glm::vec3& v : cut) {
+      judged.push_back({v, sides_.code(v), v.z >= receivers_.iHigh});
+      common &= judged.back().code;
+    }
+    // What is left of it lies beyond one side, wherever receivers cut it.
+    if (common != 0) return;
+    const bool oneSided = kind == LoopKind::oneSided;
+    const bool crosses = collapseRuns(judged, collapsed) || oneSided;
+    if (collapsed.size() < 3) return;
+    kept.clear();
+    for (const Judged& v : collapsed) kept.push_back(v.ti);
+    const int winding = crosses ? 0 : windingNumber(cut, light_, receivers_.center());
+    if (!crosses && winding == 0) return;
+    result_.addLoop(kept);
+    result_.loops.back().oneSided = oneSided;
+    partial_ = partial_ || crosses;
+    constant_ += winding;
+  }
+
+  /// Of all loops so far; anything but `partial` empties the result.
+  Coverage coverage() {
+    if (partial_) return Coverage::partial;
+    if (constant_ == 0) result_.clear();
+    return constant_ > 0 ? Coverage::full : Coverage::none;
+  }
+
+ private:
+  const SubLight& light_;
+  const TangentBox& receivers_;
+  OuterSides sides_;
+  CasterLoops& result_;
+  int constant_ = 0;
+  bool partial_ = false;
+};
 }  // namespace
+
+bool isCoarse(const scene::CasterPart& part) {
+  return part.faceCount <= kCoarseFaces;
+}
 
 void CasterLoops::clear() {
   points.clear();
@@ -95,6 +158,9 @@ void CasterLoops::clear() {
   high = glm::vec3(-1e30f);
   enclosesLight = false;
   firstLayer = layerCount = 0;
+  object = part = 0;
+  convex = true;
+  coarse = false;
 }
 
 void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
@@ -106,7 +172,8 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
   }
 }
 
-SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light) {
+SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
   std::uint32_t layersLeft = 0;
@@ -124,6 +191,11 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight
       }
       caster.addLoop(loop);
     }
+    caster.object = source.object;
+    caster.part = source.part;
+    const scene::CasterPart& part = casters[source.object].mesh->parts()[source.part];
+    caster.convex = part.convex;
+    caster.coarse = isCoarse(part);
   }
   return result;
 }
@@ -154,38 +226,29 @@ Coverage simplify(const CasterLoops& caster, const SubLight& light, const Tangen
                   CasterLoops& result) {
   result.clear();
   if (caster.enclosesLight) return Coverage::full;
-  const float iFar = receivers.iLow * (1.0f - kFarMargin);
-  if (caster.high.z <= iFar) return Coverage::none;
-  const OuterSides sides(light, receivers);
-  if (sides.code(caster.low, caster.high) != 0) return Coverage::none;
-  thread_local std::vector<glm::vec3> cut, kept;
-  thread_local std::vector<Judged> judged, collapsed;
-  int constant = 0;
-  bool partial = false;
+  if (caster.high.z <= farEnd(receivers)) return Coverage::none;
+  if (OuterSides(light, receivers).code(caster.low, caster.high) != 0) return Coverage::none;
+  Simplifier simplifier(light, receivers, result);
   for (const CasterLoops::Loop& loop : caster.loops) {
-    cutFar({caster.points.data() + loop.first, loop.count}, iFar, cut);
-    if (cut.size() < 3) continue;
-    judged.clear();
-    unsigned common = ~0u;
-    for (const glm::vec3& v : cut) {
-      judged.push_back({v, sides.code(v), v.z >= receivers.iHigh});
-      common &= judged.back().code;
-    }
-    // What is left of it lies beyond one side, wherever receivers cut it.
-    if (common != 0) continue;
-    const bool crosses = collapseRuns(judged, collapsed);
-    if (collapsed.size() < 3) continue;
-    kept.clear();
-    for (const Judged& v : collapsed) kept.push_back(v.ti);
-    const int winding = crosses ? 0 : windingNumber(cut, light, receivers.center());
-    if (!crosses && winding == 0) continue;
-    result.addLoop(kept);
-    partial = partial || crosses;
-    constant += winding;
+    simplifier.add({caster.points.data() + loop.first, loop.count});
   }
-  if (partial) return Coverage::partial;
+  return simplifier.coverage();
+}
+
+Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+                  const ReceiverSet& receivers, FacetChoice choice, CasterLoops& result) {
   result.clear();
-  return constant > 0 ? Coverage::full : Coverage::none;
+  thread_local std::vector<std::uint32_t> mattering;
+  thread_local NearLoops loops;
+  facetsThatMatter(surface, facets, light, receivers, choice, mattering);
+  nearLoops(surface, mattering, light, receivers, choice, loops);
+  Simplifier simplifier(light, receivers.box, result);
+  for (const std::vector<glm::vec3>& loop : loops.joined) simplifier.add(loop);
+  // What stands before all receivers may cover all of the light.
+  if (simplifier.coverage() == Coverage::full) return Coverage::full;
+  for (const std::vector<glm::vec3>& loop : loops.among) simplifier.add(loop);
+  for (const std::vector<glm::vec3>& loop : loops.oneSided) simplifier.add(loop, LoopKind::oneSided);
+  return simplifier.coverage();
 }
 
 }  // namespace halfshadow::techniques

@@ -10,14 +10,19 @@
 #include <vector>
 
 #include "scene/light_silhouettes.hpp"
+#include "techniques/caster_lists/near_surface.hpp"
 #include "techniques/caster_lists/tangent_space.hpp"
 
 namespace halfshadow::techniques {
+
+/// Of so few faces that a silhouette differs much from point to point of the light.
+bool isCoarse(const scene::CasterPart& part);
 
 /// Loops of one caster part seen from one sub-light, in (t, i); counter-clockwise around what they cover.
 struct CasterLoops {
   struct Loop {
     std::uint32_t first = 0, count = 0;  ///< in `points`
+    bool oneSided = false;               ///< counts only where what it covers is positive
   };
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
@@ -26,6 +31,10 @@ struct CasterLoops {
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
+  std::uint32_t object = 0, part = 0;
+  /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
+  bool convex = true;
+  bool coarse = false;
 
   void clear();
   void addLoop(std::span<const glm::vec3> loop);
@@ -37,8 +46,9 @@ struct SubLightLoops {
   std::vector<CasterLoops> casters;
   std::vector<CasterLoops> layers;
 };
-/// `silhouettes` with layers alongside (scene::LayerSplit).
-SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes, const SubLight& light);
+/// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
+SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light);
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
 /// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.
@@ -69,5 +79,10 @@ enum class Coverage { none, full, partial };
 /// covered for all of them; `none`: not at all (result empty).
 Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
                   CasterLoops& result);
+
+/// The same from the faces of a caster, for receivers not behind all of it. `facets`:
+/// those that matter, or more.
+Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+                  const ReceiverSet& receivers, FacetChoice choice, CasterLoops& result);
 
 }  // namespace halfshadow::techniques

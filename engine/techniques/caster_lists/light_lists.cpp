@@ -12,6 +12,15 @@ namespace {
 /// third less at 1/2, for twice and a half more list building.
 constexpr double kCasterTileShare = 0.5;
 
+/// Four times as many tiles have at most this many times the records.
+constexpr std::size_t kFinerGrowth = 5;
+
+/// The receiver's index among casters.
+std::uint32_t casterOf(const LightFrame& frame, const DrawItem& receiver) {
+  const auto found = std::ranges::find(frame.casters, receiver.geometry, &DrawItem::geometry);
+  return found == frame.casters.end() ? kNoObject : static_cast<std::uint32_t>(found - frame.casters.begin());
+}
+
 /// Direction of a pixel's ray in the light's coordinates, from (x, y, 1) with x and y in [0, 1] over the
 /// view.
 glm::dmat3 pixelRays(const View& view, const scene::LightPlane& plane) {
@@ -41,6 +50,7 @@ Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& tex
 
 Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
   if (loops_.update(frame, request.subLights)) {
+    surfaces_ = NearSurfaces(placedCasters(frame), loops_.plane(), LightLoops::kMinHeight);
     shadows_ = shadowedTangents(loops_.subLights());
     receivers_.clear();
     encoded_.clear();
@@ -51,20 +61,25 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
   // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
   const int maxRows =
       std::min({limits.textureSize, 65536, frame.capabilities.has(gl::Capability::highp) ? 65536 : 1024});
-  if (tileSize_ < finest || receivers_.empty()) tileSize_ = finest;
+  tileSize_ = finest * std::exp2(doublings_);
   bool changed = !tiles_;
   for (int attempt = 0; attempt < 8; ++attempt) {
     std::vector<const void*> used;
     std::vector<ReceiverLists> receivers;
     for (const DrawItem& item : frame.receivers) {
+      if (request.receivers == ListedReceivers::casting && !item.casts) continue;
       Receiver& cached = receivers_[item.geometry];
       if (cached.revision != item.revision) {
         cached.revision = item.revision;
-        cached.tiles = receiverTiles(
-            {.mesh = item.sourceMesh, .worldFromObject = item.worldFromObject, .closed = item.closed},
-            loops_.plane(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_, kMaxTiles,
-            LightLoops::kMinHeight, loops_.lift());
-        cached.lists = cellLists(loops_.subLights(), cached.tiles, request.edges);
+        const ListedReceiver receiver{.ownObject = casterOf(frame, item), .lift = loops_.lift()};
+        cached.tiles =
+            receiverTiles({.mesh = item.sourceMesh,
+                           .worldFromObject = item.worldFromObject,
+                           .closed = item.closed,
+                           .withPatches = receiver.ownObject != kNoObject},
+                          loops_.plane(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
+                          kMaxTiles, LightLoops::kMinHeight, loops_.lift());
+        cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges);
         changed = true;
       }
       used.push_back(item.geometry);
@@ -82,9 +97,12 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       step_ = encoded.step;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
       encoded_ = std::move(inSomeOrder);
+      // The next lists are tried finer where these would have fitted.
+      if (doublings_ > 0 && encoded.rows * kFinerGrowth < static_cast<std::size_t>(maxRows)) --doublings_;
       return {};
     }
     // Half as many tiles a side: lists grow by less than their number shrinks.
+    ++doublings_;
     tileSize_ *= 2.0;
     receivers_.clear();
     frame.graph.noteSkipped(std::string(request.tilesKey),
@@ -97,12 +115,10 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
 
 void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) const {
   shading.forward = false;
-  // Most fragments have no list; a loop that ends at once still costs a round on some devices.
-  if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
   shading.usesFacetPlane = true;
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-  shading.textures = {{.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_},
-                      {.sampler = "u_cellLists", .resource = {}, .texture = &records_}};
+  shading.textures.push_back({.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_});
+  shading.textures.push_back({.sampler = "u_cellLists", .resource = {}, .texture = &records_});
   // Rows a, b, h, h: what the vertex shader hands on as (a, b, -, h).
   const scene::LightPlane& plane = loops_.plane();
   const glm::dmat3& axes = plane.axes;
@@ -118,9 +134,11 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   const auto heightBias = static_cast<float>(2.0 * frame.settings.real("bias")) * step_.z;
   const glm::mat3 rays(pixelRays(frame.view, plane));
   const glm::vec3 eye(plane.fromWorld(frame.view.eyeWorld));
-  shading.setUniforms = [lift, rays, eye, center = glm::vec4(center_, LightLoops::kMinHeight),
+  shading.setUniforms = [others = std::move(shading.setUniforms), lift, rays, eye,
+                         center = glm::vec4(center_, LightLoops::kMinHeight),
                          step = glm::vec4(step_, heightBias), texel = glm::vec4(tileTexel, recordTexel)](
                             gl::Program& program, gl::Context& context) {
+    if (others) others(program, context);
     program.set(context, "u_cellTexel", texel);
     program.set(context, "u_listCenter", center);
     program.set(context, "u_listScale", step);

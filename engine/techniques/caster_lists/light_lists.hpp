@@ -16,10 +16,14 @@ namespace halfshadow::techniques {
 /// Most tiles along a side.
 inline constexpr int kMaxTiles = 512;
 
+/// Receivers that get lists.
+enum class ListedReceivers { all, casting };
+
 /// What a technique wants in its lists.
 struct ListRequest {
   std::span<const SubLight> subLights;  ///< each with silhouettes of its own
   ListedEdges edges = ListedEdges::covering;
+  ListedReceivers receivers = ListedReceivers::all;
   int tiles = 128;            ///< along the longer side of what the shadows cover, seen from the light
   std::string_view tilesKey;  ///< the setting that says so, for messages
 };
@@ -34,8 +38,8 @@ class LightLists {
   Status update(const LightFrame& frame, const ListRequest& request);
   /// Silhouettes of the last update, one entry per sub-light.
   std::span<const SubLightLoops> subLights() const { return loops_.subLights(); }
-  /// Textures, uniforms and two draws for a fragment shader with caster_lists.glsl. The shading refers to
-  /// this object.
+  /// Adds textures and uniforms for a fragment shader with caster_lists.glsl. The shading refers to this
+  /// object.
   void provide(const LightFrame& frame, ReceiverShading& shading) const;
 
  private:
@@ -47,8 +51,10 @@ class LightLists {
   };
 
   LightLoops loops_;
+  NearSurfaces surfaces_;
   TangentRect shadows_;
   double tileSize_ = 1.0;
+  int doublings_ = 0;                          ///< of the tiles' size, so that all lists fit
   std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
   std::vector<const void*> encoded_;           ///< those in the textures, by address
   gl::Texture tiles_, records_;

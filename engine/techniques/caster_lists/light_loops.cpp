@@ -35,7 +35,7 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
     const SubLight& subLight = subLights[i];
     subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane_, subLight.center.x, subLight.center.y,
                                                         kMinHeight, scene::LayerSplit::alongside),
-                                 subLight));
+                                 casters, subLight));
   }
   return true;
 }

@@ -58,7 +58,7 @@ void encodeRecord(const CellRecord& record, const glm::vec3& center, const glm::
   }
   texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
                                         (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
-                                        static_cast<int>(record.end));
+                                        (record.oneSided ? 8 : 0) | static_cast<int>(record.end));
   texels[7] = static_cast<std::uint8_t>(scale);
 }
 
@@ -87,6 +87,7 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   for (const ReceiverLists& receiver : receivers) recordCount += receiver.lists->records.size();
   const std::size_t rows = std::max<std::size_t>((recordCount + kRecordsPerRow - 1) / kRecordsPerRow, 1);
   if (rows > static_cast<std::size_t>(maxRows)) return false;
+  result.rows = rows;
   if (recordCount > 0) {
     const Range range = fineRange(receivers);
     result.center = 0.5f * (range.low + range.high);

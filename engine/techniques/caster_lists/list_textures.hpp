@@ -27,6 +27,7 @@ struct ListImage {
 /// vertex is center + (value - 32768) · scale · step. The tag is in caster_lists.glsl.
 struct EncodedLists {
   ListImage tiles, records;
+  std::size_t rows = 0;                ///< of the records
   std::vector<glm::ivec2> firstTexel;  ///< of each receiver's tiles
   glm::vec3 center{0.0f}, step{1.0f};  ///< (t, i)
 };

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <span>
 
 namespace halfshadow::techniques {
@@ -13,6 +14,8 @@ struct Polygon {
   glm::dvec3 points[4];
   int count = 0;
   glm::dvec3 low{1e300}, high{-1e300};
+  glm::dvec3 normalWorld{0.0};
+  double planeDistance = 0.0;
   void add(const glm::dvec3& abh) {
     const glm::dvec3 p = tangentPoint(abh);
     points[count++] = p;
@@ -73,7 +76,14 @@ double turnOf(const Polygon& polygon) {
   return area >= 0.0 ? 1.0 : -1.0;
 }
 
-void addPolygon(const Polygon& polygon, ReceiverTiles& tiles) {
+/// Patches as they are found, with their tiles.
+struct FoundPatches {
+  bool wanted = false;
+  std::vector<std::uint32_t> tile;
+  std::vector<ReceiverPatch> patch;
+};
+
+void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& found) {
   const auto clampedIndex = [](double value, int count) {
     return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
   };
@@ -104,13 +114,29 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles) {
         iHigh = std::min(iHigh, center + spread);
         if (iLow > iHigh) iLow = iHigh = std::clamp(center, polygon.low.z, polygon.high.z);
       }
-      TangentBox& box = tiles.boxes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) +
-                                    static_cast<std::size_t>(x)];
+      const std::size_t tile =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) + static_cast<std::size_t>(x);
+      if (found.wanted) {
+        found.tile.push_back(static_cast<std::uint32_t>(tile));
+        found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.normalWorld,
+                               polygon.planeDistance});
+      }
+      TangentBox& box = tiles.boxes[tile];
       const auto l = static_cast<float>(iLow * (1.0 - 1e-6)), h = static_cast<float>(iHigh * (1.0 + 1e-6));
       box.iLow = box.empty() ? l : std::min(box.iLow, l);
       box.iHigh = std::max(box.iHigh, h);
     }
   }
+}
+
+/// Sorts patches by tile.
+void keepPatches(const FoundPatches& found, ReceiverTiles& tiles) {
+  tiles.firstPatch.assign(tiles.boxes.size() + 1, 0);
+  for (const std::uint32_t tile : found.tile) ++tiles.firstPatch[tile + 1];
+  std::partial_sum(tiles.firstPatch.begin(), tiles.firstPatch.end(), tiles.firstPatch.begin());
+  std::vector<std::uint32_t> next(tiles.firstPatch.begin(), tiles.firstPatch.end() - 1);
+  tiles.patches.resize(found.patch.size());
+  for (std::size_t k = 0; k < found.patch.size(); ++k) tiles.patches[next[found.tile[k]]++] = found.patch[k];
 }
 }  // namespace
 
@@ -121,6 +147,7 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
   if (shadows.empty()) return tiles;
   const glm::dmat3 linear(surface.worldFromObject);
   const glm::dmat3 lightFromObject = plane.axes * linear;
+  const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
   const glm::dvec3 offset = plane.fromWorld(glm::dvec3(surface.worldFromObject[3]));
   const double orientation = glm::determinant(linear) >= 0.0 ? 1.0 : -1.0;
   const scene::TriangleMesh& mesh = *surface.mesh;
@@ -134,8 +161,14 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
     const glm::dvec3 abh[3] = {vertices[mesh.indices[f]], vertices[mesh.indices[f + 1]],
                                vertices[mesh.indices[f + 2]]};
     if (surface.closed && !facesLight(abh, orientation)) continue;
-    const Polygon polygon = cutTriangle(abh, minHeight);
+    Polygon polygon = cutTriangle(abh, minHeight);
     if (polygon.count < 3) continue;
+    if (surface.withPatches) {
+      const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[f + k]]); };
+      const glm::dvec3 normal = normalMatrix * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
+      polygon.normalWorld = normal / std::max(glm::length(normal), 1e-300);
+      polygon.planeDistance = glm::dot(polygon.normalWorld, plane.toWorld(abh[0]) - plane.centerWorld);
+    }
     if (polygon.low.x > shadows.high.x || polygon.high.x < shadows.low.x || polygon.low.y > shadows.high.y ||
         polygon.high.y < shadows.low.y)
       continue;
@@ -153,7 +186,9 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
   tiles.rows = count(size.y);
   tiles.tileSize = size / glm::dvec2(tiles.columns, tiles.rows);
   tiles.boxes.resize(static_cast<std::size_t>(tiles.columns) * static_cast<std::size_t>(tiles.rows));
-  for (const Polygon& polygon : polygons) addPolygon(polygon, tiles);
+  FoundPatches found{.wanted = surface.withPatches};
+  for (const Polygon& polygon : polygons) addPolygon(polygon, tiles, found);
+  if (found.wanted) keepPatches(found, tiles);
   for (int y = 0; y < tiles.rows; ++y) {
     for (int x = 0; x < tiles.columns; ++x) {
       TangentBox& box = tiles.boxes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) +

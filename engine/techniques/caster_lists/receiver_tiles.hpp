@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <span>
 #include <vector>
 
 #include "scene/light_silhouettes.hpp"
@@ -21,19 +22,36 @@ struct TangentRect {
   bool empty() const { return !(low.x < high.x && low.y < high.y); }
 };
 
+/// The part of one facet of a receiver that lies in one tile: tangents within [low, high], reciprocal height
+/// base + dot(gradient, t) within [iLow, iHigh].
+struct ReceiverPatch {
+  glm::dvec2 low{0.0}, high{0.0}, gradient{0.0};
+  double base = 0.0, iLow = 0.0, iHigh = 0.0;
+  glm::dvec3 normalWorld{0.0};  ///< unit, outward
+  double planeDistance = 0.0;   ///< of the light's centre from its plane, behind positive, world units
+};
+
 /// A grid over the tangents that a receiver and the shadows share; `boxes` row by row, empty where the
 /// receiver has no surface turned towards the light.
 struct ReceiverTiles {
   glm::dvec2 low{0.0}, tileSize{1.0};
   int columns = 0, rows = 0;
   std::vector<TangentBox> boxes;
+  /// Of tile k: patches[firstPatch[k]] to patches[firstPatch[k + 1]]; only where asked for.
+  std::vector<ReceiverPatch> patches;
+  std::vector<std::uint32_t> firstPatch;
+  std::span<const ReceiverPatch> patchesOf(std::size_t tile) const {
+    if (firstPatch.empty()) return {};
+    return std::span(patches).subspan(firstPatch[tile], firstPatch[tile + 1] - firstPatch[tile]);
+  }
   bool empty() const { return columns == 0; }
 };
 
 struct ReceiverSurface {
   const scene::TriangleMesh* mesh = nullptr;
   glm::dmat4 worldFromObject{1.0};
-  bool closed = false;  ///< faces turned away from every point of the light receive nothing
+  bool closed = false;       ///< faces turned away from every point of the light receive nothing
+  bool withPatches = false;  ///< ReceiverTiles::patches are wanted
 };
 
 /// `lift`: world distance by which fragments are moved off the surface; the boxes allow for it. `tileSize`:

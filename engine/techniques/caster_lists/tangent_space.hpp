@@ -27,11 +27,12 @@ struct TangentBox {
   glm::vec3 center() const { return {0.5f * (tLow + tHigh), 0.5f * (iLow + iHigh)}; }
 };
 
-/// A quarter of the light with silhouettes of its own, its centre at `center`.
+/// A part of the light, a quarter or all, with silhouettes of its own, its centre at `center`.
 struct SubLight {
   glm::vec2 center{0.0f};
   float half = 0.5f;
 };
+inline constexpr SubLight kWholeLight{glm::vec2(0.0f), 1.0f};
 inline constexpr int kSubLights = 4;
 /// The quarters, in the order of lists: bit 0 of the index is the sign of a, bit 1 that of b.
 inline constexpr std::array<SubLight, kSubLights> subLights() {

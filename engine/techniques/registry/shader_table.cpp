@@ -91,8 +91,9 @@ std::vector<gl::AllowedVariants> shaderTable() {
       receiver("screen_counts.frag", {}),
       receiver("screen_visibility.frag", {}),
       receiver("wedges_blended.frag", {kMapReceiver, kTwoDraws, {"HS_CENTRES", "HS_CASTING_RECEIVER"}}),
-      receiver("screen_wedges.frag", {{"HS_WEDGE_SUMS", "HS_WEDGE_SHARES"}}),
-      receiver("screen_cells.frag", {{"HS_CELL_TARGETS"}}),
+      receiver("screen_wedges.frag",
+               {kMapReceiver, {"HS_WEDGE_SUMS", "HS_WEDGE_SHARES", "HS_CASTING_RECEIVER"}}),
+      receiver("screen_cells.frag", {kMapReceiver, {"HS_CELL_TARGETS", "HS_CELLS", "HS_CASTING_RECEIVER"}}),
       receiver("shade_lights.frag", {}),
   };
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
+#include "techniques/caster_lists/own_receivers.hpp"
 #include "techniques/wedge_receivers/wedge_route.hpp"
 
 namespace halfshadow::techniques {
@@ -9,6 +10,35 @@ namespace {
 using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
+
+/// Receivers among the surfaces of one caster, which wedges of its silhouette do not shadow.
+class OwnReceivers {
+ public:
+  explicit OwnReceivers(std::string tilesKey) : tilesKey_(std::move(tilesKey)) {}
+  SettingInfo setting() const {
+    return {tilesKey_,
+            SettingType::integer,
+            "128",
+            1,
+            kMaxTiles,
+            {},
+            "tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
+            "the surfaces of casters that are not convex"};
+  }
+  Result<ReceiverShading> addTo(Result<ReceiverShading> shading, const LightFrame& frame) {
+    if (!shading) return shading;
+    if (Status s = listOwnReceivers(frame, lists_[frame.lightIndex], tilesKey_, {&kWholeLight, 1},
+                                    OwnSurfaces::hollow, *shading);
+        !s)
+      return s.error();
+    return shading;
+  }
+  void contextLost() { lists_.clear(); }
+
+ private:
+  std::string tilesKey_;
+  std::map<int, LightLists> lists_;
+};
 
 WedgeGroup castersWhere(const WedgePieces& pieces, auto predicate) {
   WedgeGroup group;
@@ -45,17 +75,24 @@ class AdditiveWedges final : public Technique {
         .guarantees = "exact for one convex caster seen from the light's centre; sums never clamp part-way",
         .knownFailures =
             "too dark where penumbrae of several casters overlap; silhouettes are those of the "
-            "light's centre; a caster's shadow on itself is unreliable unless it is convex"};
+            "light's centre; on a caster that is not convex, layers of it that overlap within a quadrant add "
+            "up"};
     return info;
   }
-  std::vector<SettingInfo> settings() const override { return {routeSetting("wedges.route")}; }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    return routes_.declareSums(frame, frame.settings.choice("wedges.route"));
+  std::vector<SettingInfo> settings() const override {
+    return {routeSetting("wedges.route"), own_.setting()};
   }
-  void contextLost() override { routes_.contextLost(); }
+  Result<ReceiverShading> declare(const LightFrame& frame) override {
+    return own_.addTo(routes_.declareSums(frame, frame.settings.choice("wedges.route")), frame);
+  }
+  void contextLost() override {
+    routes_.contextLost();
+    own_.contextLost();
+  }
 
  private:
   WedgeRoutes routes_;
+  OwnReceivers own_{"wedges.tiles"};
 };
 
 class ProbabilisticWedges final : public Technique {
@@ -68,10 +105,13 @@ class ProbabilisticWedges final : public Technique {
         .guarantees = "exact where one convex caster shadows a receiver; never darker than black",
         .knownFailures =
             "too light where casters side by side cover different parts of the light; silhouettes "
-            "are those of the light's centre; a caster's shadow on itself is unreliable unless it is convex"};
+            "are those of the light's centre; on a caster that is not convex, layers of it that overlap "
+            "within a quadrant add up"};
     return info;
   }
-  std::vector<SettingInfo> settings() const override { return {routeSetting("wedges-probabilistic.route")}; }
+  std::vector<SettingInfo> settings() const override {
+    return {routeSetting("wedges-probabilistic.route"), own_.setting()};
+  }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto route = routes_.choose(frame, frame.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
     if (!route) return route.error();
@@ -92,9 +132,12 @@ class ProbabilisticWedges final : public Technique {
         if (Status s = declareMerge(frame, volumes, batch, sums, visibility); !s) return s.error();
       }
     }
-    return screenShading(visibility, 0.0f);
+    return own_.addTo(screenShading(visibility, 0.0f), frame);
   }
-  void contextLost() override { routes_.contextLost(); }
+  void contextLost() override {
+    routes_.contextLost();
+    own_.contextLost();
+  }
 
  private:
   /// What the batch's casters can shadow on the screen.
@@ -137,6 +180,7 @@ class ProbabilisticWedges final : public Technique {
   }
 
   WedgeRoutes routes_;
+  OwnReceivers own_{"wedges-probabilistic.tiles"};
 };
 }  // namespace
 

@@ -12,7 +12,6 @@ using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
 
-constexpr SubLight kWholeLight{glm::vec2(0.0f), 1.0f};
 constexpr gl::BlendState kLargest{.enabled = true,
                                   .equation = gl::BlendEquation::max,
                                   .source = gl::BlendFactor::one,

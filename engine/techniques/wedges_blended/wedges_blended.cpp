@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <optional>
 
-#include "techniques/caster_lists/light_lists.hpp"
+#include "techniques/caster_lists/own_receivers.hpp"
 #include "techniques/wedge_receivers/wedge_route.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-constexpr SubLight kWholeLight{glm::vec2(0.0f), 1.0f};
-
 /// Whether some receiver can lie in the penumbrae of two casters. Heights are in units of the farthest
 /// receiver's.
 bool castersMeet(const WedgePieces& pieces) {
@@ -60,7 +58,8 @@ class WedgesBlended final : public Technique {
             "darker than without overlap, never lighter than the darkest caster",
         .knownFailures =
             "what both of two casters occlude within a quadrant is estimated; silhouettes are "
-            "those of the light's centre; a caster's shadow on itself is unreliable unless it is convex"};
+            "those of the light's centre; on a caster that is not convex, layers of it that overlap within a "
+            "quadrant add up"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -100,10 +99,12 @@ class WedgesBlended final : public Technique {
       light.meetKey = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
-    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame);
+    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame, light.lists);
     if (const auto merge = targetMerge(frame)) {
       const bool centres = frame.settings.choice("wedges-blended.cog") == "on";
-      return declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres});
+      return withOwnReceivers(
+          declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres}), frame,
+          light.lists);
     }
     return gather(frame, light.lists);
   }
@@ -121,9 +122,19 @@ class WedgesBlended final : public Technique {
   };
 
   /// Without overlap there is nothing to blend.
-  Result<ReceiverShading> addUp(const LightFrame& frame) {
+  Result<ReceiverShading> addUp(const LightFrame& frame, LightLists& lists) {
     frame.graph.noteSkipped("blending", "no two casters shadow the same receiver: their shares are added up");
-    return routes_.declareSums(frame, "auto");
+    return withOwnReceivers(routes_.declareSums(frame, "auto"), frame, lists);
+  }
+
+  static Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
+                                                  LightLists& lists) {
+    if (!shading) return shading;
+    if (Status s = listOwnReceivers(frame, lists, "wedges-blended.tiles", {&kWholeLight, 1},
+                                    OwnSurfaces::hollow, *shading);
+        !s)
+      return s.error();
+    return shading;
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.
@@ -137,6 +148,8 @@ class WedgesBlended final : public Technique {
     shading.fragmentFile = "wedges_blended.frag";
     if (frame.settings.choice("wedges-blended.cog") == "on") shading.defines.push_back("HS_CENTRES");
     lists.provide(frame, shading);
+    // Most fragments have no list; a loop that ends at once still costs a round on some devices.
+    if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
     return shading;
   }
 

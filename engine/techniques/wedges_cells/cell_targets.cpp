@@ -72,7 +72,7 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
 }
 
 /// Eight targets and a base colour are more textures than a pass may read: their mean is taken first.
-Result<ReceiverShading> declareMean(const LightFrame& frame, std::span<const ReceiverTexture> cells) {
+Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<const ReceiverTexture> cells) {
   auto program = frame.programs.get({"fullscreen.vert", "cell_mean.frag", {}});
   if (!program) return program.error();
   const framegraph::ResourceId mean = screenImage(frame, "mean of cells");
@@ -93,7 +93,7 @@ Result<ReceiverShading> declareMean(const LightFrame& frame, std::span<const Rec
     context.encoder.drawFullscreen({});
   };
   frame.graph.addPass(std::move(pass));
-  return screenShading(mean, 0.0f);
+  return mean;
 }
 }  // namespace
 
@@ -106,19 +106,26 @@ Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws&
   auto depth = declareReceiverDepth(frame, ReceiverAlpha::facets);
   if (!depth) return depth.error();
   std::vector<CellTarget> targets = targetsOf(cells);
-  ReceiverShading shading;
-  shading.fragmentFile = "screen_cells.frag";
-  shading.defines = {"HS_CELL_TARGETS " + std::to_string(targets.size())};
-  shading.forward = false;
+  std::vector<ReceiverTexture> textures;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const std::string name = "cells " + std::to_string(t);
     targets[t].image = screenImage(frame, name);
     if (Status s = declareTarget(frame, draws, *depth, targets[t], cells, product, name); !s) {
       return s.error();
     }
-    shading.textures.push_back({.sampler = kSamplers[t], .resource = targets[t].image});
+    textures.push_back({.sampler = kSamplers[t], .resource = targets[t].image});
   }
-  if (targets.size() > 4) return declareMean(frame, shading.textures);
+  if (targets.size() > 4) {
+    auto mean = declareMean(frame, textures);
+    if (!mean) return mean.error();
+    textures = {{.sampler = kSamplers[0], .resource = *mean}};
+  }
+  ReceiverShading shading;
+  shading.fragmentFile = "screen_cells.frag";
+  shading.defines = {"HS_CELL_TARGETS " + std::to_string(textures.size()),
+                     "HS_CELLS " + std::to_string(cells)};
+  shading.forward = false;
+  shading.textures = std::move(textures);
   return shading;
 }
 

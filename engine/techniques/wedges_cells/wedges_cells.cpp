@@ -4,11 +4,13 @@
 
 #include <map>
 
-#include "techniques/caster_lists/light_lists.hpp"
+#include "techniques/caster_lists/own_receivers.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
+constexpr auto kQuarters = subLights();
+
 enum class Route { gather, scatter, fetch };
 
 /// What this device can do of what is asked for. Errors: none; what is missing is noted.
@@ -40,9 +42,8 @@ class WedgesCells final : public Technique {
             "exact up to storage for one convex caster as each sub-light's centre sees it; the order "
             "of casters does not matter",
         .knownFailures =
-            "casters that overlap within one cell count as independent; a hollow of a caster whose own "
-            "silhouette passes at its height may be shadowed wholly, since the cut is closed by a "
-            "chord; a flat facet whose plane cuts the light loses it by quarters"};
+            "casters that overlap within one cell count as independent, and layers of one caster add up "
+            "there; lists of faces grow with the triangles of casters that are not convex"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -87,13 +88,18 @@ class WedgesCells final : public Technique {
 Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
   const Route route = routeOf(frame);
   if (route == Route::gather) return gather(frame);
-  return declareCellTargets(frame, draws_[frame.lightIndex],
-                            std::stoi(frame.settings.choice("wedges-cells.bytes")),
-                            route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
+  auto shading = declareCellTargets(frame, draws_[frame.lightIndex],
+                                    std::stoi(frame.settings.choice("wedges-cells.bytes")),
+                                    route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
+  if (!shading) return shading;
+  if (Status s = listOwnReceivers(frame, lists_[frame.lightIndex], "wedges-cells.tiles", kQuarters,
+                                  OwnSurfaces::hollowOrCoarse, *shading);
+      !s)
+    return s.error();
+  return shading;
 }
 
 Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
-  static constexpr auto kQuarters = subLights();
   LightLists& lists = lists_[frame.lightIndex];
   const ListRequest request{.subLights = kQuarters,
                             .edges = ListedEdges::covering,
@@ -104,6 +110,8 @@ Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
   shading.fragmentFile = "wedges_cells.frag";
   shading.defines = {"HS_CELLS " + frame.settings.choice("wedges-cells.bytes")};
   lists.provide(frame, shading);
+  // Most fragments have no list; a loop that ends at once still costs a round on some devices.
+  if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
   return shading;
 }
 }  // namespace

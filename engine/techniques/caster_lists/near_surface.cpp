@@ -1,0 +1,327 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/caster_lists/near_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "techniques/caster_lists/cell_loops.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Shares of the lift within which single precision may put a fragment on either side of a plane.
+constexpr double kUnsure = 0.25;
+/// Clusters whose normals lie within 18 degrees of their mean count as even: a chord across one is its
+/// contour to a twentieth of its size.
+constexpr float kEven = 0.95f;
+/// Radii of a patch from its middle from which on it is listed whole.
+constexpr double kFarPatch = 1.25;
+
+int judge(double value, double reach) {
+  return value > reach ? 1 : value < -reach ? -1 : 0;
+}
+
+/// Where a part of the light lies of a facet's plane: 1 all on its outer side, -1 all on the inner, 0 some on
+/// either. At the light's point (x, y, 0) the plane is that of the tangent (x, y) at i = 0, all but its
+/// scale.
+int sideOf(const glm::dvec4& plane, const SubLight& light) {
+  return judge(plane.w + plane.x * light.center.x + plane.y * light.center.y,
+               light.half * (std::abs(plane.x) + std::abs(plane.y)));
+}
+
+/// Whether its centre is on the outer side.
+bool sees(const glm::dvec4& plane, const SubLight& light) {
+  return plane.w + plane.x * light.center.x + plane.y * light.center.y > 0.0;
+}
+
+int sideOf(const glm::dvec4& plane, const TangentBox& box) {
+  const glm::dvec3 reach(0.5 * glm::dvec2(box.tHigh - box.tLow), 0.5 * (box.iHigh - box.iLow));
+  const glm::dvec3 linear(plane.x, plane.y, plane.w);
+  return judge(glm::dot(linear, glm::dvec3(box.center())) + plane.z, glm::dot(glm::abs(linear), reach));
+}
+
+/// The same for lifted fragments of patches, one by one.
+int sideOf(const NearSurface::Facet& facet, bool closed, const ReceiverSet& receivers) {
+  const glm::dvec4& plane = facet.plane;
+  int side = 2;
+  for (const ReceiverPatch& patch : receivers.patches) {
+    const double lifted = receivers.lift * glm::dot(facet.normalWorld, patch.normalWorld);
+    const double unsure = kUnsure * receivers.lift;
+    const double least = closed ? lifted - unsure : -std::abs(lifted) - unsure;
+    const double most = closed ? lifted + unsure : std::abs(lifted) + unsure;
+    for (int corner = 0; corner < 4; ++corner) {
+      const glm::dvec2 t(corner & 1 ? patch.high.x : patch.low.x, corner & 2 ? patch.high.y : patch.low.y);
+      const double i = std::clamp(patch.base + glm::dot(patch.gradient, t), patch.iLow, patch.iHigh);
+      const double value = plane.x * t.x + plane.y * t.y + plane.z + plane.w * i;
+      const int here = value + least * i > 0.0 ? 1 : value + most * i < 0.0 ? -1 : 0;
+      if (here == 0 || (side != 2 && side != here)) return 0;
+      side = here;
+    }
+  }
+  return side;
+}
+
+int sideOfReceivers(const NearSurface::Facet& facet, bool closed, const ReceiverSet& receivers) {
+  return receivers.patches.empty() ? sideOf(facet.plane, receivers.box) : sideOf(facet, closed, receivers);
+}
+
+/// Whether all of the light's part lies in front of every patch: then what is behind all of them hides
+/// nothing of it from any.
+bool lightIsBefore(const ReceiverSet& receivers, const SubLight& light) {
+  const scene::LightPlane& plane = receivers.plane;
+  return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
+    const double u = glm::dot(patch.normalWorld, plane.halfU), v = glm::dot(patch.normalWorld, plane.halfV);
+    return light.center.x * u + light.center.y * v - light.half * (std::abs(u) + std::abs(v)) >
+           patch.planeDistance + receivers.lift;
+  });
+}
+
+bool behindAll(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverSet& receivers) {
+  const double highest = (1.0 - kUnsure) * receivers.lift;
+  return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
+    return std::ranges::all_of(facet.vertex, [&](std::uint32_t v) {
+      return glm::dot(patch.normalWorld, surface.pointsWorld[v]) - patch.planeDistance < highest;
+    });
+  });
+}
+
+/// Closed loops from directed edges between points.
+class Chain {
+ public:
+  explicit Chain(std::size_t points) {
+    if (first_.size() < points) first_.resize(points, -1);
+  }
+  void add(std::uint32_t from, std::uint32_t to) {
+    if (first_[from] < 0) starts_.push_back(from);
+    links_.push_back({to, first_[from]});
+    first_[from] = static_cast<std::int32_t>(links_.size()) - 1;
+  }
+  /// Appends all loops of three edges and more, and forgets the edges. As many enter a point as leave it, so
+  /// that a walk ends where it began.
+  void take(const std::vector<glm::vec3>& points, std::vector<std::vector<glm::vec3>>& loops) {
+    for (const std::uint32_t start : starts_) {
+      while (first_[start] >= 0) {
+        std::vector<glm::vec3>& loop = loops.emplace_back();
+        std::uint32_t at = start;
+        do {
+          loop.push_back(points[at]);
+          const Link& taken = links_[static_cast<std::size_t>(first_[at])];
+          first_[at] = taken.next;
+          at = taken.to;
+        } while (at != start);
+        if (loop.size() < 3) loops.pop_back();
+      }
+    }
+    starts_.clear();
+    links_.clear();
+  }
+
+ private:
+  struct Link {
+    std::uint32_t to = 0;
+    std::int32_t next = -1;
+  };
+  // All -1 between uses.
+  static thread_local std::vector<std::int32_t> first_;
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> starts_;
+};
+thread_local std::vector<std::int32_t> Chain::first_;
+
+/// How a facet enters the lists.
+enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned, kOneSided };
+
+Role roleOf(const NearSurface& surface, const NearSurface::Facet& facet, const SubLight& light,
+            const ReceiverSet& receivers, FacetChoice choice) {
+  const int side = choice == FacetChoice::asReceiversSee ? sideOfReceivers(facet, surface.closed, receivers)
+                   : sees(facet.plane, light)            ? -1
+                                                         : 1;
+  if (side == 0) return kOneSided;
+  const bool among = !surface.convex && facet.low.z < receivers.box.iHigh;
+  return side < 0 ? (among ? kAmong : kJoined) : (among ? kAmongTurned : kJoinedTurned);
+}
+void measurePatches(NearSurface& surface) {
+  std::vector<scene::Bounds> bounds(surface.patches.size());
+  for (const NearSurface::Facet& facet : surface.facets) {
+    for (const std::uint32_t v : facet.vertex) bounds[facet.patch].include(surface.pointsWorld[v]);
+  }
+  for (std::size_t k = 0; k < bounds.size(); ++k) {
+    surface.patches[k].centerWorld = bounds[k].center();
+    surface.patches[k].radius = bounds[k].radius();
+  }
+}
+
+/// A chord stands for a patch's contour where no receiver is near enough to tell them apart.
+bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
+  const auto toWorld = [&](const glm::dvec3& ti) {
+    return receivers.plane.toWorld({ti.x / ti.z, ti.y / ti.z, 1.0 / ti.z}) - receivers.plane.centerWorld;
+  };
+  const TangentBox& box = receivers.box;
+  const glm::dvec3 middle = toWorld(glm::dvec3(box.center()));
+  const double reach = glm::length(toWorld(glm::dvec3(box.tHigh, box.iLow)) - middle);
+  return glm::length(patch.centerWorld - middle) > reach + kFarPatch * patch.radius;
+}
+}  // namespace
+
+NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const scene::LightPlane& plane,
+                        double minHeight) {
+  const scene::HalfEdgeMesh& mesh = *caster.mesh;
+  const scene::CasterPart& own = mesh.parts()[part];
+  const glm::dmat3 linear(caster.worldFromObject);
+  const glm::dmat3 lightFromObject = plane.axes * linear;
+  const glm::dvec3 offset = plane.fromWorld(glm::dvec3(caster.worldFromObject[3]));
+  // Faces that look towards the light run clockwise in (a, b), unless the object is mirrored.
+  const bool turned = glm::determinant(linear) > 0.0;
+
+  NearSurface surface{.closed = own.closed, .convex = own.convex};
+  std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
+  surface.facets.reserve(own.faceCount);
+  for (std::uint32_t f = own.firstFace; f < own.firstFace + own.faceCount; ++f) {
+    NearSurface::Facet facet{
+        .beyond = {kNoFacet, kNoFacet, kNoFacet}, .low = glm::vec3(1e30f), .high = glm::vec3(-1e30f)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.faces()[f][turned ? 2 - k : k];
+      if (pointOf[v] == kNoFacet) {
+        const glm::dvec3 abh = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
+        if (abh.z < minHeight) return {};
+        pointOf[v] = static_cast<std::uint32_t>(surface.points.size());
+        surface.points.emplace_back(tangentPoint(abh));
+        surface.pointsWorld.push_back(plane.toWorld(abh) - plane.centerWorld);
+      }
+      facet.vertex[k] = pointOf[v];
+      facet.low = glm::min(facet.low, surface.points[pointOf[v]]);
+      facet.high = glm::max(facet.high, surface.points[pointOf[v]]);
+    }
+    const auto at = [&](std::size_t k) { return surface.pointsWorld[facet.vertex[k]]; };
+    // Outward: the vertices run counter-clockwise in (a, b), which is clockwise for the light that looks at
+    // them.
+    const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
+    const glm::dvec3 normal = cross / std::max(glm::length(cross), 1e-300);
+    facet.normalWorld = normal;
+    facet.plane = {glm::dot(normal, plane.halfU), glm::dot(normal, plane.halfV),
+                   plane.heightUnit * glm::dot(normal, plane.normal), -glm::dot(normal, at(0))};
+    surface.facets.push_back(facet);
+  }
+  for (const scene::FaceCluster& cluster : mesh.clusters().subspan(own.firstCluster, own.clusterCount)) {
+    for (std::uint32_t k = 0; k < cluster.faceCount; ++k) {
+      const std::uint32_t f = cluster.firstFace - own.firstFace + k;
+      if (k == 0 || cluster.cosAngle < kEven) surface.patches.push_back({.firstFacet = f});
+      NearSurface::Patch& patch = surface.patches.back();
+      ++patch.facetCount;
+      patch.low = glm::min(patch.low, surface.facets[f].low);
+      patch.high = glm::max(patch.high, surface.facets[f].high);
+      surface.facets[f].patch = static_cast<std::uint32_t>(surface.patches.size()) - 1;
+    }
+  }
+  measurePatches(surface);
+  const auto join = [&](std::uint32_t f, std::uint32_t from, std::uint32_t to, std::uint32_t beyond) {
+    NearSurface::Facet& facet = surface.facets[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t p = facet.vertex[k], q = facet.vertex[(k + 1) % 3];
+      if ((p == from && q == to) || (p == to && q == from)) facet.beyond[k] = beyond;
+    }
+  };
+  for (const scene::EdgeRecord& edge : mesh.edges().subspan(own.firstEdge, own.edgeCount)) {
+    if (edge.opposite == scene::kNoFace) continue;
+    const std::uint32_t a = edge.face - own.firstFace, b = edge.opposite - own.firstFace;
+    join(a, pointOf[edge.from], pointOf[edge.to], b);
+    join(b, pointOf[edge.from], pointOf[edge.to], a);
+  }
+  return surface;
+}
+
+const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part) {
+  const auto [found, isNew] = made_.try_emplace({object, part});
+  if (isNew) found->second = nearSurface(casters_[object], part, plane_, minHeight_);
+  return found->second;
+}
+
+void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
+                   std::vector<std::uint32_t>& result) {
+  result.clear();
+  const OuterSides outer(kWholeLight, receivers);
+  const auto inReach = [&](const auto& what) {
+    return what.high.z > receivers.iLow && outer.code(what.low, what.high) == 0;
+  };
+  for (const NearSurface::Patch& patch : surface.patches) {
+    if (!inReach(patch)) continue;
+    for (std::uint32_t f = patch.firstFacet; f < patch.firstFacet + patch.facetCount; ++f) {
+      if (inReach(surface.facets[f])) result.push_back(f);
+    }
+  }
+}
+
+void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
+                      const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
+                      std::vector<std::uint32_t>& result) {
+  result.clear();
+  const OuterSides outer(light, receivers.box);
+  const bool lightBefore = surface.closed && choice == FacetChoice::asReceiversSee &&
+                           !receivers.patches.empty() && lightIsBefore(receivers, light);
+  for (const std::uint32_t f : candidates) {
+    const NearSurface::Facet& facet = surface.facets[f];
+    if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
+    const auto& v = facet.vertex;
+    if ((outer.code(surface.points[v[0]]) & outer.code(surface.points[v[1]]) &
+         outer.code(surface.points[v[2]])) != 0)
+      continue;
+    const int lightSide = sideOf(facet.plane, light);
+    if (surface.closed && choice == FacetChoice::asLightSees && !sees(facet.plane, light)) continue;
+    const int receiverSide = sideOfReceivers(facet, surface.closed, receivers);
+    // No ray passes a plane that has both its ends on one side.
+    if (lightSide * receiverSide > 0) continue;
+    if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
+    if (lightBefore && behindAll(surface, facet, receivers)) continue;
+    result.push_back(f);
+  }
+}
+
+void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+               const ReceiverSet& receivers, FacetChoice choice, NearLoops& result) {
+  result.joined.clear();
+  result.among.clear();
+  result.oneSided.clear();
+  thread_local std::vector<std::uint8_t> roles;
+  roles.assign(surface.facets.size(), kAbsent);
+  for (const std::uint32_t f : facets)
+    roles[f] = roleOf(surface, surface.facets[f], light, receivers, choice);
+  Chain chain(surface.points.size());
+  enum class Way { outward, turned };
+  /// The edges of facet f where no facet of the same kind goes on.
+  const auto link = [&](std::uint32_t f, Way way, auto goesOn) {
+    const NearSurface::Facet& facet = surface.facets[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t beyond = facet.beyond[k];
+      if (beyond != kNoFacet && roles[beyond] == roles[f] && goesOn(beyond)) continue;
+      std::uint32_t from = facet.vertex[k], to = facet.vertex[(k + 1) % 3];
+      if (way == Way::turned) std::swap(from, to);
+      chain.add(from, to);
+    }
+  };
+  for (const std::uint32_t f : facets) {
+    if (roles[f] == kJoined) link(f, Way::outward, [](std::uint32_t) { return true; });
+    if (roles[f] == kJoinedTurned) link(f, Way::turned, [](std::uint32_t) { return true; });
+  }
+  chain.take(surface.points, result.joined);
+  for (std::size_t k = 0; k < facets.size();) {
+    const std::uint32_t patch = surface.facets[facets[k]].patch;
+    std::size_t end = k;
+    while (end < facets.size() && surface.facets[facets[end]].patch == patch) ++end;
+    const bool whole = isFar(surface.patches[patch], receivers);
+    const auto takePatch = [&](Role role, Way way, std::vector<std::vector<glm::vec3>>& loops) {
+      for (std::size_t m = k; m < end; ++m) {
+        if (roles[facets[m]] != role) continue;
+        link(facets[m], way, [&](std::uint32_t f) { return whole && surface.facets[f].patch == patch; });
+        if (!whole) chain.take(surface.points, loops);
+      }
+      chain.take(surface.points, loops);
+    };
+    takePatch(kAmong, Way::outward, result.among);
+    takePatch(kAmongTurned, Way::turned, result.among);
+    takePatch(kOneSided, Way::outward, result.oneSided);
+    if (!surface.closed) takePatch(kOneSided, Way::turned, result.oneSided);
+    k = end;
+  }
+}
+
+}  // namespace halfshadow::techniques

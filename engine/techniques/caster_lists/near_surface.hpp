@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// What a caster covers for receivers among its own surfaces. There its silhouette does not tell: the part of
+/// it that is nearer to the light than a receiver ends in a contour across its faces, which no chord between
+/// silhouette vertices replaces unless it is convex. Near such receivers the faces themselves are listed, and
+/// only those in front of all of them are summed up in their boundary.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "scene/light_silhouettes.hpp"
+#include "techniques/caster_lists/receiver_tiles.hpp"
+#include "techniques/caster_lists/tangent_space.hpp"
+
+namespace halfshadow::techniques {
+
+inline constexpr std::uint32_t kNoFacet = ~0u;
+
+/// The faces of one part of a caster in (t, i). Where the light is on a facet's outer side its vertices run
+/// counter-clockwise around what it covers for receivers on the inner side.
+struct NearSurface {
+  struct Facet {
+    std::array<std::uint32_t, 3> vertex{};  ///< in `points`
+    std::array<std::uint32_t, 3> beyond{};  ///< the facet across the edge from vertex k, or kNoFacet
+    /// Signed distance from its plane, outward positive, times the reciprocal height of a point (t, i):
+    /// dot(plane, (t.x, t.y, 1, i)), world units.
+    glm::dvec4 plane{0.0};
+    glm::dvec3 normalWorld{0.0};      ///< unit, outward
+    glm::vec3 low{0.0f}, high{0.0f};  ///< bounds in (t, i)
+    std::uint32_t patch = 0;          ///< facets of one patch follow each other and are about even
+  };
+  /// Neighbouring facets that are about even.
+  struct Patch {
+    std::uint32_t firstFacet = 0, facetCount = 0;
+    glm::vec3 low{1e30f}, high{-1e30f};  ///< bounds in (t, i)
+    glm::dvec3 centerWorld{0.0};         ///< relative to the light's centre
+    double radius = 0.0;                 ///< world units
+  };
+  std::vector<glm::vec3> points;
+  std::vector<Patch> patches;
+  std::vector<glm::dvec3> pointsWorld;  ///< the same, relative to the light's centre
+  std::vector<Facet> facets;
+  bool closed = true;   ///< else a sheet, whose facets cover from both sides
+  bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
+};
+
+/// No facets where the part reaches through the plane h = minHeight.
+NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const scene::LightPlane& plane,
+                        double minHeight);
+
+/// Surfaces of one light's casters, each made when first asked for.
+class NearSurfaces {
+ public:
+  NearSurfaces() = default;
+  NearSurfaces(std::span<const scene::PlacedCaster> casters, const scene::LightPlane& plane, double minHeight)
+      : casters_(casters.begin(), casters.end()), plane_(plane), minHeight_(minHeight) {}
+  /// `object`: index of the caster. The reference lasts as long as this object.
+  const NearSurface& of(std::uint32_t object, std::uint32_t part);
+  const scene::LightPlane& plane() const { return plane_; }
+
+ private:
+  std::vector<scene::PlacedCaster> casters_;
+  scene::LightPlane plane_;
+  double minHeight_ = 0.0;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, NearSurface> made_;
+};
+
+/// Which facets stand for the caster. Of a closed surface every ray from a receiver to the light leaves as
+/// often as it enters: those through which rays leave cover everything once.
+enum class FacetChoice {
+  asLightSees,     ///< those that look at the sub-light's centre, as its silhouettes have it
+  asReceiversSee,  ///< those that receivers are behind of: exact for every point of the light
+};
+
+/// Receivers that share a list.
+struct ReceiverSet {
+  const TangentBox& box;
+  const scene::LightPlane& plane;
+  /// Their facets where they are few and known exactly; else empty.
+  std::span<const ReceiverPatch> patches;
+  double lift = 0.0;  ///< world units by which fragments stand off their facets
+};
+
+/// Facets that can cover some of the light for some receiver in the box, or more. Replaces `result`.
+void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
+                   std::vector<std::uint32_t>& result);
+
+/// Of `candidates` (facets), those that can cover some of the light's part for some of the receivers.
+/// Replaces `result`.
+void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
+                      const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
+                      std::vector<std::uint32_t>& result);
+
+/// Loops of `facets`: first around those that stand before all receivers (and, of a convex caster, those
+/// among them), joined; then around each of the others; then around each of those that cover only for
+/// receivers on their inner side, of which there are some on either: a fragment counts them where what they
+/// cover is positive.
+struct NearLoops {
+  std::vector<std::vector<glm::vec3>> joined, among, oneSided;
+};
+void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+               const ReceiverSet& receivers, FacetChoice choice, NearLoops& result);
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/caster_lists/own_receivers.hpp"
+
+#include <algorithm>
+
+namespace halfshadow::techniques {
+
+Status listOwnReceivers(const LightFrame& frame, LightLists& lists, std::string_view tilesKey,
+                        std::span<const SubLight> subLights, OwnSurfaces which, ReceiverShading& shading) {
+  const auto needsNone = [which](const scene::CasterPart& part) {
+    return part.convex && (which == OwnSurfaces::hollow || !isCoarse(part));
+  };
+  const bool some = std::ranges::any_of(frame.receivers, [&](const DrawItem& item) {
+    return item.casts && !std::ranges::all_of(item.halfEdges().parts(), needsNone);
+  });
+  if (!some) return {};
+  const ListRequest request{.subLights = subLights,
+                            .receivers = ListedReceivers::casting,
+                            .tiles = frame.settings.integer(tilesKey),
+                            .tilesKey = tilesKey};
+  if (Status s = lists.update(frame, request); !s) return s;
+  lists.provide(frame, shading);
+  return {};
+}
+
+}  // namespace halfshadow::techniques

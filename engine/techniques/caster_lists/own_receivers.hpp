@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Lists for the surfaces of casters that are not convex, where a technique else draws on the screen what
+/// silhouettes cover: among a caster's own surfaces that says nothing (see near_surface.hpp).
+#pragma once
+
+#include <string_view>
+
+#include "techniques/caster_lists/light_lists.hpp"
+
+namespace halfshadow::techniques {
+
+/// Which casters' own surfaces need lists.
+enum class OwnSurfaces {
+  hollow,         ///< those that are not convex
+  hollowOrCoarse  ///< and those of few faces, as lists of several sub-lights have them
+};
+
+/// Makes casting receivers of `shading` walk lists, for a fragment file that does so with
+/// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them. `tilesKey`: the setting that
+/// holds the number of tiles. `subLights`: those of the fragment file. Errors: outOfMemory (lists exceed the
+/// largest texture).
+Status listOwnReceivers(const LightFrame& frame, LightLists& lists, std::string_view tilesKey,
+                        std::span<const SubLight> subLights, OwnSurfaces which, ReceiverShading& shading);
+
+}  // namespace halfshadow::techniques
