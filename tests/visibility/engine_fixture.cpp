@@ -100,7 +100,7 @@ const scene::SceneDescription& builtinScene(const std::string& name) {
   static std::map<std::string, scene::SceneDescription> opened;
   const auto found = opened.find(name);
   if (found != opened.end()) return found->second;
-  auto scene = scenes::openScene("builtin:" + name, {});
+  auto scene = scenes::openScene(name.ends_with(".glb") ? name : "builtin:" + name, {});
   EXPECT_TRUE(scene) << scene.error().message;
   return opened[name] = scene ? std::move(scene).value() : scene::SceneDescription{};
 }

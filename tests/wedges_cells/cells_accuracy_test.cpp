@@ -64,11 +64,10 @@ TEST_F(CellsAccuracy, CastersReceiveAsWellAsTheGround) {
     const auto error = metrics::errorStatistics(visibility(scene, cells("16")), truth.visibility, onCasters);
     if (error.pixels == 0) continue;
     std::printf("%-20s casters rmse %.4f, largest %.3f\n", scene.c_str(), error.rmse, error.max);
-    // A flat plate whose own plane cuts the light loses it sub-light by sub-light: each errs by half of its
-    // quarter at most, two at a time rarely.
-    const bool plates = scene.find("leaves") != std::string::npos;
-    EXPECT_LE(error.rmse, plates ? 0.07 : 0.01) << scene;
-    EXPECT_LE(error.max, plates ? 0.19 : 0.06) << scene;
+    EXPECT_LE(error.rmse, 0.012) << scene;
+    // Next to each other two thin leaves see a third by its edge: at h = 2 single pixels change from .36 to 0
+    // and back within a hundredth of a unit.
+    EXPECT_LE(error.max, scene == "leaves@light=2" ? 0.17 : 0.07) << scene;
   }
 }
 

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Lists of faces for receivers among a caster's own surfaces against rays: how often a ray to the light
+// leaves the caster.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "coverage/trapezoid.hpp"
+#include "scene/half_edge_mesh.hpp"
+#include "techniques/caster_lists/cell_lists.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+
+/// A closed surface around the origin with hollows as deep as half its radius.
+scene::TriangleMesh bumpyBall(int slices, int stacks) {
+  scene::TriangleMesh mesh;
+  const double pi = 3.14159265358979323846;
+  const auto add = [&](double polar, double around) {
+    const glm::dvec3 d(std::sin(polar) * std::cos(around), std::cos(polar),
+                       std::sin(polar) * std::sin(around));
+    const double radius = 1.0 + 0.35 * std::sin(3.0 * around) * std::sin(polar) * std::cos(2.0 * polar);
+    mesh.positions.emplace_back(glm::vec3(radius * d));
+  };
+  add(0.0, 0.0);
+  for (int s = 1; s < stacks; ++s) {
+    for (int k = 0; k < slices; ++k) add(pi * s / stacks, 2.0 * pi * k / slices);
+  }
+  add(pi, 0.0);
+  const auto at = [&](int s, int k) { return static_cast<std::uint32_t>(1 + (s - 1) * slices + k % slices); };
+  const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c});
+  };
+  const auto last = static_cast<std::uint32_t>(mesh.positions.size() - 1);
+  for (int k = 0; k < slices; ++k) {
+    triangle(0, at(1, k + 1), at(1, k));
+    triangle(last, at(stacks - 1, k), at(stacks - 1, k + 1));
+    for (int s = 1; s + 1 < stacks; ++s) {
+      triangle(at(s, k), at(s, k + 1), at(s + 1, k));
+      triangle(at(s, k + 1), at(s + 1, k + 1), at(s + 1, k));
+    }
+  }
+  return mesh;
+}
+
+scene::TriangleMesh box(const glm::vec3& half) {
+  scene::TriangleMesh mesh;
+  for (int k = 0; k < 8; ++k) {
+    mesh.positions.emplace_back(k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z);
+  }
+  mesh.indices = {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                  2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+  return mesh;
+}
+
+/// How often the segment leaves the surface through one of its triangles.
+int exits(const scene::TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to) {
+  int count = 0;
+  const glm::dvec3 d = to - from;
+  for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
+    const glm::dvec3 a(mesh.positions[mesh.indices[f]]),
+        e1 = glm::dvec3(mesh.positions[mesh.indices[f + 1]]) - a,
+        e2 = glm::dvec3(mesh.positions[mesh.indices[f + 2]]) - a;
+    const glm::dvec3 p = glm::cross(d, e2);
+    const double det = glm::dot(e1, p);
+    // Along the outward normal; det is its negated dot with d.
+    if (det > -1e-15) continue;
+    const glm::dvec3 s = from - a, q = glm::cross(s, e1);
+    const double u = glm::dot(s, p) / det, v = glm::dot(d, q) / det, t = glm::dot(e2, q) / det;
+    count += u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0;
+  }
+  return count;
+}
+
+/// What a fragment at `receiver` (t, i) makes of its list: layers that cover each of the four cells of each
+/// sub-light.
+std::array<std::array<double, 4>, 4> walk(std::span<const CellRecord> list, std::span<const SubLight> lights,
+                                          const glm::dvec3& receiver) {
+  std::array<std::array<double, 4>, 4> covered{};
+  std::vector<coverage::Projected<double>> loop;
+  std::vector<coverage::FlatPoint<double>> flat;
+  for (const CellRecord& record : list) {
+    if (record.startsLoop) loop.clear();
+    const SubLight& light = lights[record.subLight];
+    const glm::dvec3 q = glm::dvec3(record.ti) - receiver;
+    if (!record.closesLoop) {
+      loop.push_back(
+          {(q.x - light.center.x * q.z) / light.half, (q.y - light.center.y * q.z) / light.half, q.z});
+      continue;
+    }
+    coverage::clipNear<double>(loop, 1e-9, flat);
+    for (std::size_t cell = 0; cell < 4; ++cell) {
+      const double share =
+          coverage::loopCoverage<double>(flat, {cell % 2 == 0 ? -1.0 : 0.0, cell < 2 ? -1.0 : 0.0, 1.0, 1.0});
+      covered[record.subLight][cell] += record.oneSided ? std::max(share, 0.0) : share;
+    }
+  }
+  return covered;
+}
+
+struct Deviation {
+  double largest = 0.0, square = 0.0;
+  int receivers = 0, penumbra = 0;
+};
+
+Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed) {
+  const auto built = scene::buildMesh({.positions = &shape.positions.front().x,
+                                       .vertexCount = static_cast<std::uint32_t>(shape.positions.size()),
+                                       .indices = shape.indices.data(),
+                                       .indexCount = shape.indices.size()});
+  EXPECT_TRUE(built.ok());
+  const scene::TriangleMesh& mesh = *built;
+  const scene::HalfEdgeMesh halfEdges = scene::HalfEdgeMesh::build(mesh);
+  const auto area = scene::areaLightFromVectors({1.0, 5.0, 0.5}, {lightHalf, 0, 0}, {0, 0, lightHalf});
+  EXPECT_TRUE(area.ok());
+  const scene::LightPlane plane(*area, 8.0, 1e-4);
+  const scene::PlacedCaster caster{.mesh = &halfEdges};
+  static constexpr auto kQuarters = subLights();
+  std::vector<SubLightLoops> loops;
+  for (const SubLight& light : kQuarters) {
+    scene::LightSilhouettes silhouettes;
+    scene::lightSilhouettes({&caster, 1}, plane, light.center.x, light.center.y, 1e-3, silhouettes,
+                            scene::LayerSplit::alongside);
+    loops.push_back(loopsOf(silhouettes, {&caster, 1}, light));
+  }
+  NearSurfaces surfaces({&caster, 1}, plane, 1e-3);
+  const double lift = 2e-3;
+  const ReceiverTiles tiles = receiverTiles({.mesh = &mesh, .closed = true, .withPatches = true}, plane,
+                                            shadowedTangents(loops), 0.05, 64, 1e-3, lift);
+  const CellLists lists = cellLists(loops, surfaces, tiles, {.ownObject = 0, .lift = lift}, ListedEdges::all);
+
+  Deviation result;
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
+    const glm::dvec3 a(mesh.positions[mesh.indices[f]]), b(mesh.positions[mesh.indices[f + 1]]),
+        c(mesh.positions[mesh.indices[f + 2]]);
+    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    double s = unit(random), t = unit(random);
+    if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
+    const glm::dvec3 place = a + s * (b - a) + t * (c - a);
+    if (glm::dot(normal, area->centerWorld - place) <= 0.0) continue;
+    const glm::dvec3 onSurface = tangentPoint(plane.fromWorld(place));
+    const glm::ivec2 tile(glm::floor((glm::dvec2(onSurface) - tiles.low) / tiles.tileSize));
+    if (tile.x < 0 || tile.y < 0 || tile.x >= tiles.columns || tile.y >= tiles.rows) continue;
+    const TileList& list = lists.tiles[static_cast<std::size_t>(tile.y * tiles.columns + tile.x)];
+    const glm::dvec3 receiver = place + lift * normal;
+    const auto covered = walk(std::span(lists.records).subspan(list.first, list.count), kQuarters,
+                              tangentPoint(plane.fromWorld(receiver)));
+    double expected = 0.0, actual = 0.0;
+    constexpr int kSide = 16;
+    for (int k = 0; k < kSide * kSide; ++k) {
+      const double x = 2.0 * (k % kSide + unit(random)) / kSide - 1.0;
+      const double y = 2.0 * (k / kSide + unit(random)) / kSide - 1.0;
+      // Layers that cover the same point of the light count once, as the fragment's clamp has it per cell.
+      expected += std::min(exits(mesh, receiver, plane.toWorld({x, y, 0.0})), 1);
+    }
+    expected /= kSide * kSide;
+    // Sub-lights that are covered wholly have no records.
+    const int full = 4 - list.litSubLights;
+    std::array<bool, 4> listed{};
+    for (std::uint32_t k = 0; k < list.count; ++k) listed[lists.records[list.first + k].subLight] = true;
+    actual += full - static_cast<int>(std::count(listed.begin(), listed.end(), true));
+    for (const auto& cells : covered) {
+      for (const double cell : cells) actual += 0.25 * std::clamp(cell, 0.0, 1.0);
+    }
+    actual *= 0.25;
+    ++result.receivers;
+    result.penumbra += expected > 0.01 && expected < 0.99;
+    result.largest = std::max(result.largest, std::abs(actual - expected));
+    result.square += (actual - expected) * (actual - expected);
+  }
+  return result;
+}
+
+TEST(NearSurface, FacesCoverWhatRaysDoNotPass) {
+  // 576 samples: .01 at half coverage, stratified; layers that overlap within one of sixteen cells add a
+  // little.
+  for (const double half : {0.3, 1.0, 2.0}) {
+    const Deviation bumpy = deviation(bumpyBall(32, 20), half, 5);
+    const double rmse = std::sqrt(bumpy.square / std::max(bumpy.receivers, 1));
+    std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half,
+                bumpy.receivers, bumpy.penumbra, rmse, bumpy.largest);
+    EXPECT_GT(bumpy.receivers, 300);
+    EXPECT_GT(bumpy.penumbra, 30);
+    EXPECT_LE(rmse, 0.012) << half;
+    EXPECT_LE(bumpy.largest, 0.09) << half;
+  }
+}
+
+TEST(NearSurface, CoarseConvexCastersKnowTheirOwnHorizon) {
+  // A plate whose top face's plane cuts the light: seen from some quarters' centres it shows its other side.
+  scene::TriangleMesh plate = box({0.8f, 0.6f, 0.02f});
+  for (glm::vec3& p : plate.positions) {
+    const float c = std::cos(0.05f), s = std::sin(0.05f);
+    p = {p.x, c * p.y - s * p.z, s * p.y + c * p.z};
+  }
+  int receivers = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const Deviation found = deviation(plate, 2.0, seed);
+    receivers += found.receivers;
+    EXPECT_LE(found.largest, 0.06) << seed;
+  }
+  EXPECT_GT(receivers, 50);
+}
+
+}  // namespace
+}  // namespace halfshadow::techniques
