@@ -85,6 +85,7 @@ void hs_addFarChord(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_H
 #endif
 }
 
+#ifdef HS_ONE_SIDED
 // covered += part; parts of a one-sided loop are collected, and count where their sum is positive once it closes.
 void hs_addPart(inout HS_Cells covered, inout HS_Cells loop, HS_Cells part, HS_HIGHP float oneSided,
                 HS_HIGHP float closes) {
@@ -102,6 +103,7 @@ void hs_addPart(inout HS_Cells covered, inout HS_Cells loop, HS_Cells part, HS_H
   loop *= open;
 #endif
 }
+#endif
 #endif
 
 // visible *= 1 - covered where `fold` is 1; covered is emptied there.

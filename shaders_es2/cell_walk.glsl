@@ -7,7 +7,9 @@ struct HS_Walk {
   HS_HIGHP vec3 previous;
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
+#ifdef HS_ONE_SIDED
   HS_Cells oneSided;  // what the loop covers so far, if it is one-sided
+#endif
 #else
   HS_HIGHP vec2 previous;
 #endif
@@ -18,7 +20,9 @@ void hs_startWalk(out HS_Walk walk) {
   walk.previous = vec3(0.0);
   walk.reached = walk.firstReached = vec2(0.0);
   walk.begun = 0.0;
+#ifdef HS_ONE_SIDED
   walk.oneSided = HS_CELLS_ALL(0.0);
+#endif
 #else
   walk.previous = vec2(0.0);
 #endif
@@ -50,12 +54,19 @@ void hs_walk(inout HS_Walk walk, inout HS_Cells covered, HS_HIGHP vec3 projected
     walk.begun = 1.0;
   }
   // An edge that starts a loop has no length: from = to.
-  HS_Cells edge = HS_CELLS_ALL(0.0);
-  hs_addFarChord(edge, walk.reached, from, seen ? 1.0 : 0.0);
-  hs_addEdge(edge, seen ? from : to, to);
+#ifdef HS_ONE_SIDED
+  HS_Cells part = HS_CELLS_ALL(0.0);
+  hs_addFarChord(part, walk.reached, from, seen ? 1.0 : 0.0);
+  hs_addEdge(part, seen ? from : to, to);
   walk.reached = seen ? to : walk.reached;
-  hs_addFarChord(edge, walk.reached, walk.firstReached, walk.begun * tags.closes);
-  hs_addPart(covered, walk.oneSided, edge, tags.oneSided, tags.closes);
+  hs_addFarChord(part, walk.reached, walk.firstReached, walk.begun * tags.closes);
+  hs_addPart(covered, walk.oneSided, part, tags.oneSided, tags.closes);
+#else
+  hs_addFarChord(covered, walk.reached, from, seen ? 1.0 : 0.0);
+  hs_addEdge(covered, seen ? from : to, to);
+  walk.reached = seen ? to : walk.reached;
+  hs_addFarChord(covered, walk.reached, walk.firstReached, walk.begun * tags.closes);
+#endif
   walk.previous = projected;
 #else
   HS_HIGHP vec2 point = hs_onSubLight(projected, tags.side);

@@ -31,7 +31,10 @@ HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 receiver) {
 // list. `side`: the sub-light's, in half sides of the light. `oneSided`: the loop counts only where what it covers
 // is positive.
 struct HS_Tags {
-  HS_HIGHP float starts, closes, ends, oneSided;
+  HS_HIGHP float starts, closes, ends;
+#ifdef HS_ONE_SIDED
+  HS_HIGHP float oneSided;
+#endif
   HS_HIGHP vec2 side;
 };
 
@@ -52,8 +55,11 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   rest -= 32.0 * tags.starts;
   tags.closes = step(15.5, rest);
   rest -= 16.0 * tags.closes;
+#ifdef HS_ONE_SIDED
   tags.oneSided = step(7.5, rest);
-  tags.ends = rest - 8.0 * tags.oneSided;
+  rest -= 8.0 * tags.oneSided;
+#endif
+  tags.ends = rest;
   at.x += 2.0 * u_cellTexel.z;
   at += step(1.0, at.x) * vec2(-1.0, u_cellTexel.w);
   return value * u_listScale.xyz * bytes.y + origin;

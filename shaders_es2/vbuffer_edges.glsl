@@ -48,7 +48,7 @@ void hs_clearSums(out HS_Sums sums) {
 #endif
 }
 
-#ifdef HS_CASTING_RECEIVER
+#ifdef HS_ONE_SIDED
 void hs_addSums(inout HS_Sums sums, HS_Sums others) {
   sums.share += others.share;
   sums.reachX = max(sums.reachX, others.reachX);

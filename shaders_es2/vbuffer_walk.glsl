@@ -7,7 +7,9 @@ struct HS_Walk {
   HS_HIGHP vec3 previous;
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
+#ifdef HS_ONE_SIDED
   HS_Sums oneSided;  // of the loop so far, if it is one-sided
+#endif
 #else
   HS_HIGHP vec2 previous;
 #endif
@@ -18,7 +20,9 @@ void hs_startWalk(out HS_Walk walk) {
   walk.previous = vec3(0.0);
   walk.reached = walk.firstReached = vec2(0.0);
   walk.begun = 0.0;
+#ifdef HS_ONE_SIDED
   hs_clearSums(walk.oneSided);
+#endif
 #else
   walk.previous = vec2(0.0);
 #endif
@@ -40,6 +44,7 @@ void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS
     walk.reached = from;
     walk.begun = 1.0;
   }
+#ifdef HS_ONE_SIDED
   bool twoSided = tags.oneSided < 0.5;
   HS_Sums parts = walk.oneSided;
   if (twoSided) parts = sums;
@@ -56,6 +61,12 @@ void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS
       hs_clearSums(walk.oneSided);
     }
   }
+#else
+  hs_addFarChord(sums, walk.reached, seen ? from : walk.reached);
+  hs_addEdge(sums, seen ? from : to, to);
+  walk.reached = seen ? to : walk.reached;
+  hs_addFarChord(sums, walk.reached, walk.begun * tags.closes > 0.5 ? walk.firstReached : walk.reached);
+#endif
   walk.previous = projected;
 #else
   HS_HIGHP vec2 point = hs_onLight(projected);

@@ -201,6 +201,7 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
       }
     }
   }
+  lists.oneSided = std::ranges::any_of(lists.records, &CellRecord::oneSided);
   return lists;
 }
 

@@ -36,6 +36,7 @@ struct CellLists {
   std::vector<CellRecord> records;
   std::uint32_t longestList = 0;
   std::size_t partialTiles = 0;  ///< tiles with a list
+  bool oneSided = false;         ///< some record is
 };
 
 /// Which edges of a simplified loop are listed.

@@ -117,6 +117,9 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   shading.forward = false;
   shading.usesFacetPlane = true;
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+  const bool oneSided =
+      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.oneSided; });
+  if (oneSided) shading.defines.push_back("HS_ONE_SIDED");
   shading.textures.push_back({.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_});
   shading.textures.push_back({.sampler = "u_cellLists", .resource = {}, .texture = &records_});
   // Rows a, b, h, h: what the vertex shader hands on as (a, b, -, h).
