@@ -25,7 +25,7 @@ HS_HIGHP vec4 hs_head = vec4(0.0);      // xyz: where the list begins
 HS_HIGHP float hs_lit = 0.0;            // of HS_SUB_LIGHTS, those that nothing covers
 bool hs_outside = false;                // of all shadows
 bool hs_listed = false;
-bool hs_single = false;  // the list is one caster
+bool hs_apart = false;  // no two casters of the list overlap
 
 // Finds the fragment's tile, then where it stands once lifted.
 void hs_findList() {
@@ -55,9 +55,9 @@ void hs_findList() {
                  tile.y >= u_tileAtlas.y;
   HS_COUNT(1);
   hs_head = floor(texture2D(u_cellTiles, (tile + u_tileAtlas.zw + 0.5) * u_cellTexel.xy) * 255.0 + 0.5);
-  // Alpha: sub-lights that nothing covers, 16 where there is a list, 32 where it is one caster.
+  // Alpha: sub-lights that nothing covers, 16 where there is a list, 32 where its casters are apart.
   hs_listed = !hs_outside && hs_head.a > 15.5;
-  hs_single = !hs_outside && hs_head.a > 31.5;
+  hs_apart = !hs_outside && hs_head.a > 31.5;
   hs_lit = hs_outside ? HS_SUB_LIGHTS : mod(hs_head.a, 16.0);
 #ifdef HS_LIFTED
   // A surface must not be cut by the silhouettes of its own edges.

@@ -17,17 +17,17 @@ float halfshadow_class() {
 }
 
 #ifndef HS_CASTING_RECEIVER
-// Nothing to blend where there is one caster: its share of the whole light.
-HS_HIGHP float hs_shareOfOne(HS_HIGHP vec3 origin) {
+// Nothing to blend where no casters overlap: their shares of the whole light.
+HS_HIGHP float hs_sumOfShares(HS_HIGHP vec3 origin) {
   HS_HIGHP float share = 0.0;
   HS_HIGHP vec2 last = vec2(0.0), at = hs_firstVertex();
   for (int i = 0; i < HS_LONGEST_LIST; ++i) {
-    if (!hs_single) break;
+    if (!hs_apart) break;
     HS_Tags tags;
     HS_HIGHP vec2 point = hs_onLight(hs_nextVertex(at, origin, tags));
     share += hs_edgeShare(mix(last, point, tags.starts), point);
     last = point;
-    if (tags.ends > 0.5) break;
+    if (tags.ends > 2.5) break;
   }
   return clamp(share, 0.0, 1.0);
 }
@@ -38,9 +38,9 @@ float halfshadow_visibility() {
   HS_HIGHP vec3 origin = hs_listOrigin();
   HS_HIGHP float lit = hs_lit;
 #ifndef HS_CASTING_RECEIVER
-  HS_HIGHP float shareOfOne = hs_shareOfOne(origin);
-  if (hs_single) lit = 1.0 - shareOfOne;
-  bool blended = hs_listed && !hs_single;
+  HS_HIGHP float sumOfShares = hs_sumOfShares(origin);
+  if (hs_apart) lit = 1.0 - sumOfShares;
+  bool blended = hs_listed && !hs_apart;
 #else
   bool blended = hs_listed;
 #endif

@@ -3,6 +3,7 @@
 #include "techniques/caster_lists/cell_lists.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 namespace halfshadow::techniques {
@@ -10,6 +11,8 @@ namespace {
 /// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
 /// few vertices.
 constexpr int kBlock = 8;
+/// Casters of a list that are tested against each other.
+constexpr std::size_t kMostApart = 32;
 
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
@@ -125,6 +128,54 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   }
 }
 
+/// Ranges of a caster along an axis of the light, as the corners of a receiver box see it.
+struct SeenRange {
+  std::array<float, 4> low, high;
+};
+
+/// Whether every two casters of the list are separated along an axis of the light for all receivers of the
+/// box. E before F along x is (tE - tP)(iF - iP) < (tF - tP)(iE - iP), which is linear in P, since the terms
+/// in tP·iP cancel: what holds at the corners holds inside.
+bool castersApart(std::span<const CellRecord> list, const TangentBox& receivers) {
+  thread_local std::vector<std::array<SeenRange, 2>> casters;
+  casters.clear();
+  bool starts = true;
+  for (const CellRecord& record : list) {
+    if (record.ti.z <= receivers.iHigh) return false;
+    if (starts) {
+      SeenRange none;
+      none.low.fill(1e30f), none.high.fill(-1e30f);
+      casters.push_back({none, none});
+      if (casters.size() > kMostApart) return false;
+    }
+    starts = record.end != CellRecord::End::none;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const glm::vec2 t = corner & 1 ? receivers.tHigh : receivers.tLow;
+      const float inverse = 1.0f / (record.ti.z - (corner & 2 ? receivers.iHigh : receivers.iLow));
+      for (int axis = 0; axis < 2; ++axis) {
+        SeenRange& range = casters.back()[static_cast<std::size_t>(axis)];
+        const float seen = (record.ti[axis] - t[axis]) * inverse;
+        range.low[corner] = std::min(range.low[corner], seen);
+        range.high[corner] = std::max(range.high[corner], seen);
+      }
+    }
+  }
+  const auto before = [](const SeenRange& a, const SeenRange& b) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (a.high[c] > b.low[c]) return false;
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    for (std::size_t m = 0; m < k; ++m) {
+      const auto &a = casters[k], &b = casters[m];
+      if (!before(a[0], b[0]) && !before(b[0], a[0]) && !before(a[1], b[1]) && !before(b[1], a[1]))
+        return false;
+    }
+  }
+  return true;
+}
+
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
                   const ReceiverSet& set, ListedEdges edges, std::vector<CellRecord>& records) {
   const TangentBox& receivers = set.box;
@@ -166,6 +217,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
   }
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
+  list.apart = edges == ListedEdges::all && list.count > 0 &&
+               (list.casters == 1 || castersApart(std::span(records).subspan(list.first), receivers));
   if (list.count > 0) records.back().end = CellRecord::End::list;
   return list;
 }

@@ -29,6 +29,8 @@ struct TileList {
   std::uint32_t first = 0, count = 0;  ///< in CellLists::records
   std::uint8_t casters = 0;            ///< in the list; 255 = that many or more
   std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
+  /// Of whole loops: no receiver of the tile sees two of its casters before the same point of the light.
+  bool apart = false;
 };
 
 struct CellLists {

@@ -119,8 +119,8 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
       texel[0] = static_cast<std::uint8_t>(record % kRecordsPerRow);
       texel[1] = static_cast<std::uint8_t>(record / kRecordsPerRow & 255);
       texel[2] = static_cast<std::uint8_t>(record / kRecordsPerRow >> 8);
-      texel[3] = static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) |
-                                           (list.count > 0 && list.casters == 1 ? 32 : 0));
+      texel[3] =
+          static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) | (list.apart ? 32 : 0));
     }
     next += receiver.lists->records.size();
   }
