@@ -99,6 +99,56 @@ TEST(CellLoops, SimplifiedLoopsCoverTheSameCells) {
   std::printf("none %d, full %d, partial %d; vertices %zu -> %zu\n", dropped, full, partial, before, after);
 }
 
+TEST(CellLists, CastersThatAreApartCoverNoPointTwice) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  int apart = 0, together = 0;
+  for (int trial = 0; trial < 3000; ++trial) {
+    SubLightLoops loops{.light = kWholeLight};
+    for (int k = 0; k < 2 + trial % 3; ++k) {
+      loops.casters.push_back(
+          wreath(random, 5 + trial % 9,
+                 {2.4f * unit(random) - 1.2f, 2.4f * unit(random) - 1.2f, 1.4f + unit(random)},
+                 0.1f + 0.2f * unit(random), 0.2f));
+    }
+    ReceiverTiles tiles{.columns = 1, .rows = 1};
+    TangentBox box;
+    box.tLow = 0.2f * glm::vec2(unit(random), unit(random)) - 0.1f;
+    box.tHigh = box.tLow + 0.03f;
+    box.iLow = 1.0f;
+    box.iHigh = 1.02f;
+    tiles.boxes = {box};
+    NearSurfaces none;
+    const CellLists lists = cellLists({&loops, 1}, none, tiles, {}, ListedEdges::all);
+    if (lists.tiles[0].casters < 2) continue;
+    if (!lists.tiles[0].apart) {
+      ++together;
+      continue;
+    }
+    ++apart;
+    for (int r = 0; r < 3; ++r) {
+      const glm::dvec3 receiver(glm::mix(box.tLow.x, box.tHigh.x, unit(random)),
+                                glm::mix(box.tLow.y, box.tHigh.y, unit(random)),
+                                glm::mix(box.iLow, box.iHigh, unit(random)));
+      for (int cell = 0; cell < 64; ++cell) {
+        // A small light in the cell's place: four cells of it in one go.
+        const SubLight part{{(cell % 8 - 3.5f) / 4.0f, (cell / 8 - 3.5f) / 4.0f}, 0.125f};
+        double most = 0.0;
+        std::array<double, 4> sum{};
+        for (const CasterLoops& caster : loops.casters) {
+          const auto covered = cellsOf(caster, part, receiver);
+          for (std::size_t c = 0; c < 4; ++c) sum[c] += covered[c];
+        }
+        for (const double value : sum) most = std::max(most, value);
+        // Loops may run over themselves within a rounding of single precision.
+        ASSERT_LE(most, 1.0 + 1e-4) << trial;
+      }
+    }
+  }
+  EXPECT_GT(apart, 200);
+  EXPECT_GT(together, 200);
+}
+
 TEST(ReceiverTiles, HoldEverySurfacePoint) {
   // Points of a turned box's light-facing faces lie in the box of their tile.
   const auto light = scene::areaLightFromVectors({0, 12, 0}, {1, 0, 0}, {0, 0, 1});

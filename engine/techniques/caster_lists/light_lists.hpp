@@ -54,7 +54,8 @@ class LightLists {
   NearSurfaces surfaces_;
   TangentRect shadows_;
   double tileSize_ = 1.0;
-  int doublings_ = 0;                          ///< of the tiles' size, so that all lists fit
+  int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
+  std::vector<const void*> casters_;           ///< by their geometry
   std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
   std::vector<const void*> encoded_;           ///< those in the textures, by address
   gl::Texture tiles_, records_;
