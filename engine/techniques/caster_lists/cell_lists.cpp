@@ -245,9 +245,10 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
             lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
             continue;
           }
-          lists.tiles[tile] = tileList(
-              subLights, block, {tiles.boxes[tile], surfaces.plane(), tiles.patchesOf(tile), receiver.lift},
-              edges, lists.records);
+          lists.tiles[tile] = tileList(subLights, block,
+                                       {tiles.boxes[tile], surfaces.plane(), tiles.patchesOf(tile),
+                                        receiver.lift, surfaces.nextTile()},
+                                       edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

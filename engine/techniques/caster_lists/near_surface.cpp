@@ -61,8 +61,13 @@ int sideOf(const NearSurface::Facet& facet, bool closed, const ReceiverSet& rece
   return side;
 }
 
-int sideOfReceivers(const NearSurface::Facet& facet, bool closed, const ReceiverSet& receivers) {
-  return receivers.patches.empty() ? sideOf(facet.plane, receivers.box) : sideOf(facet, closed, receivers);
+int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverSet& receivers) {
+  const NearSurface::Facet& facet = surface.facets[f];
+  if (receivers.patches.empty()) return sideOf(facet.plane, receivers.box);
+  if (surface.sides.size() < surface.facets.size()) surface.sides.resize(surface.facets.size());
+  NearSurface::Side& known = surface.sides[f];
+  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(facet, surface.closed, receivers)};
+  return known.side;
 }
 
 /// Whether all of the light's part lies in front of every patch: then what is behind all of them hides
@@ -131,9 +136,10 @@ thread_local std::vector<std::int32_t> Chain::first_;
 /// How a facet enters the lists.
 enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned, kOneSided };
 
-Role roleOf(const NearSurface& surface, const NearSurface::Facet& facet, const SubLight& light,
-            const ReceiverSet& receivers, FacetChoice choice) {
-  const int side = choice == FacetChoice::asReceiversSee ? sideOfReceivers(facet, surface.closed, receivers)
+Role roleOf(const NearSurface& surface, std::uint32_t f, const SubLight& light, const ReceiverSet& receivers,
+            FacetChoice choice) {
+  const NearSurface::Facet& facet = surface.facets[f];
+  const int side = choice == FacetChoice::asReceiversSee ? sideOfReceivers(surface, f, receivers)
                    : sees(facet.plane, light)            ? -1
                                                          : 1;
   if (side == 0) return kOneSided;
@@ -267,11 +273,11 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
       continue;
     const int lightSide = sideOf(facet.plane, light);
     if (surface.closed && choice == FacetChoice::asLightSees && !sees(facet.plane, light)) continue;
-    const int receiverSide = sideOfReceivers(facet, surface.closed, receivers);
+    if (lightBefore && behindAll(surface, facet, receivers)) continue;
+    const int receiverSide = sideOfReceivers(surface, f, receivers);
     // No ray passes a plane that has both its ends on one side.
     if (lightSide * receiverSide > 0) continue;
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
-    if (lightBefore && behindAll(surface, facet, receivers)) continue;
     result.push_back(f);
   }
 }
@@ -282,9 +288,9 @@ void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets
   result.among.clear();
   result.oneSided.clear();
   thread_local std::vector<std::uint8_t> roles;
-  roles.assign(surface.facets.size(), kAbsent);
-  for (const std::uint32_t f : facets)
-    roles[f] = roleOf(surface, surface.facets[f], light, receivers, choice);
+  // All absent between uses.
+  if (roles.size() < surface.facets.size()) roles.resize(surface.facets.size(), kAbsent);
+  for (const std::uint32_t f : facets) roles[f] = roleOf(surface, f, light, receivers, choice);
   Chain chain(surface.points.size());
   enum class Way { outward, turned };
   /// The edges of facet f where no facet of the same kind goes on.
@@ -322,6 +328,7 @@ void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets
     if (!surface.closed) takePatch(kOneSided, Way::turned, result.oneSided);
     k = end;
   }
+  for (const std::uint32_t f : facets) roles[f] = kAbsent;
 }
 
 }  // namespace halfshadow::techniques

@@ -47,6 +47,12 @@ struct NearSurface {
   std::vector<Patch> patches;
   std::vector<glm::dvec3> pointsWorld;  ///< the same, relative to the light's centre
   std::vector<Facet> facets;
+  /// Working memory: on which side of each facet the receivers of a tile lie, asked for by each sub-light.
+  struct Side {
+    std::uint64_t tile = 0;
+    int side = 0;
+  };
+  mutable std::vector<Side> sides;
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
 };
@@ -64,11 +70,14 @@ class NearSurfaces {
   /// `object`: index of the caster. The reference lasts as long as this object.
   const NearSurface& of(std::uint32_t object, std::uint32_t part);
   const scene::LightPlane& plane() const { return plane_; }
+  /// For ReceiverSet::tile.
+  std::uint64_t nextTile() { return ++tile_; }
 
  private:
   std::vector<scene::PlacedCaster> casters_;
   scene::LightPlane plane_;
   double minHeight_ = 0.0;
+  std::uint64_t tile_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, NearSurface> made_;
 };
 
@@ -85,7 +94,8 @@ struct ReceiverSet {
   const scene::LightPlane& plane;
   /// Their facets where they are few and known exactly; else empty.
   std::span<const ReceiverPatch> patches;
-  double lift = 0.0;  ///< world units by which fragments stand off their facets
+  double lift = 0.0;       ///< world units by which fragments stand off their facets
+  std::uint64_t tile = 0;  ///< a number of its own for each set with patches
 };
 
 /// Facets that can cover some of the light for some receiver in the box, or more. Replaces `result`.
