@@ -131,10 +131,19 @@ std::vector<std::uint8_t> facingPixels(const reference::ReceiverImage& receivers
 
 }  // namespace
 
+namespace {
+std::vector<std::uint8_t> penumbraOn(const Truth& truth, std::uint8_t kind) {
+  std::vector<std::uint8_t> pixels(truth.kind.size());
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = truth.kind[i] == kind;
+  return metrics::penumbraMask(truth.visibility, pixels);
+}
+}  // namespace
+
 std::vector<std::uint8_t> Truth::penumbraOnGround() const {
-  std::vector<std::uint8_t> ground(kind.size());
-  for (std::size_t i = 0; i < kind.size(); ++i) ground[i] = kind[i] == reference::kGroundReceiver;
-  return metrics::penumbraMask(visibility, ground);
+  return penumbraOn(*this, reference::kGroundReceiver);
+}
+std::vector<std::uint8_t> Truth::penumbraOnCasters() const {
+  return penumbraOn(*this, reference::kCasterReceiver);
 }
 
 const Truth& truthOf(const std::string& sceneName) {

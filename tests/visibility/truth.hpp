@@ -26,6 +26,7 @@ struct Truth {
   std::vector<float> visibility;
   /// 1 on penumbra pixels of receivers that cast nothing.
   std::vector<std::uint8_t> penumbraOnGround() const;
+  std::vector<std::uint8_t> penumbraOnCasters() const;  ///< the same of those that cast
 };
 
 /// Penumbra RMSE is judged over these, whose truth others published too.

@@ -30,9 +30,11 @@ class WedgeAccuracyTest : public SharedEngineTest {
   /// Penumbra pixels of the ground that no outline of a caster cuts: there, rasterisers and rays see
   /// different surfaces.
   static std::vector<std::uint8_t> judged(const Truth& truth) {
-    std::vector<std::uint8_t> pixels = truth.penumbraOnGround();
-    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = pixels[i] && truth.interior[i];
-    return pixels;
+    return offOutlines(truth, truth.penumbraOnGround());
+  }
+  /// The same of casters.
+  static std::vector<std::uint8_t> judgedOnCasters(const Truth& truth) {
+    return offOutlines(truth, truth.penumbraOnCasters());
   }
   /// `largest` is over all scenes.
   static Mean meanError(const Configuration& configuration) {
@@ -50,6 +52,10 @@ class WedgeAccuracyTest : public SharedEngineTest {
     std::printf("%-34s rmse %.5f, p99 %.4f, largest %.3f\n", configuration.text().c_str(), mean.rmse,
                 mean.p99, mean.largest);
     return mean;
+  }
+  static std::vector<std::uint8_t> offOutlines(const Truth& truth, std::vector<std::uint8_t> pixels) {
+    for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = pixels[i] && truth.interior[i];
+    return pixels;
   }
   /// fp16 knows a fragment's place to 11 bits: twice the error is the price of a device without highp.
   static double precision() { return isForcedOff("highp") ? 2.0 : 1.0; }

@@ -16,13 +16,9 @@ class OwnSurfaces : public WedgeAccuracyTest {
   static metrics::ErrorStatistics errorOnCasters(const std::string& scene,
                                                  const Configuration& configuration) {
     const Truth& truth = truthOf(scene);
-    std::vector<std::uint8_t> onCasters(truth.kind.size());
-    for (std::size_t i = 0; i < onCasters.size(); ++i) {
-      // Of small models hardly any pixel is free of outlines; there they count, too.
-      const bool judged = truth.interior[i] || scene.ends_with(".glb");
-      onCasters[i] = truth.kind[i] == reference::kCasterReceiver && judged && truth.visibility[i] > 0.005f &&
-                     truth.visibility[i] < 0.995f;
-    }
+    // Of small models hardly any pixel is free of outlines; there they count, too.
+    const std::vector<std::uint8_t> onCasters =
+        scene.ends_with(".glb") ? truth.penumbraOnCasters() : judgedOnCasters(truth);
     const std::vector<float> actual = visibility(scene, configuration);
     const auto error = metrics::errorStatistics(actual, truth.visibility, onCasters);
     std::printf("%-24s %-28s casters rmse %.4f, p99 %.3f (%zu pixels)\n",

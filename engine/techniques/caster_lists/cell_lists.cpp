@@ -90,6 +90,13 @@ TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
   return all;
 }
 
+/// What stands for a caster where all receivers are behind it: its layers, or itself where it does not hide
+/// itself.
+void forEachLayer(const SubLightLoops& loops, const CasterLoops& caster, auto&& use) {
+  if (caster.layerCount == 0) use(caster);
+  for (std::uint32_t l = 0; l < caster.layerCount; ++l) use(loops.layers[caster.firstLayer + l]);
+}
+
 void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
                  const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
   result.full = false;
@@ -113,12 +120,12 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     return true;
   };
   for (const CasterLoops& caster : loops.casters) {
-    if (caster.low.z >= receivers.iHigh && caster.layerCount > 0) {
-      for (std::uint32_t l = 0; l < caster.layerCount; ++l) add(loops.layers[caster.firstLayer + l]);
+    if (caster.low.z >= receivers.iHigh) {
+      forEachLayer(loops, caster, add);
       continue;
     }
-    const bool among = caster.low.z < receivers.iHigh && !caster.enclosesLight &&
-                       (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
+    const bool among =
+        !caster.enclosesLight && (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
     if (among && sides.code(caster.low, caster.high) != 0) continue;
     if (!among || !addNear(caster)) add(caster);
   }
@@ -196,11 +203,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
       const auto& [caster, surface, choice, facets] = block[s].near[c];
-      if (caster->low.z >= receivers.iHigh && caster->layerCount > 0) {
-        for (std::uint32_t l = 0; l < caster->layerCount && !full; ++l)
-          add(simplify(loops.layers[caster->firstLayer + l], loops.light, receivers, simplified));
-      } else if (caster->low.z >= receivers.iHigh) {
-        add(simplify(*caster, loops.light, receivers, simplified));
+      if (caster->low.z >= receivers.iHigh) {
+        forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
+          if (!full) add(simplify(layer, loops.light, receivers, simplified));
+        });
       } else {
         // Only of its own tiles the patches are known.
         const bool own = choice == FacetChoice::asReceiversSee;

@@ -54,12 +54,12 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     shadows_ = shadowedTangents(loops_.subLights());
     receivers_.clear();
     encoded_.clear();
+    std::vector<const void*> geometries;
+    for (const DrawItem& caster : frame.casters) geometries.push_back(caster.geometry);
+    // Whatever stood here before must not show in the picture.
+    if (geometries != casters_) doublings_ = 0;
+    casters_ = std::move(geometries);
   }
-  std::vector<const void*> geometries;
-  for (const DrawItem& caster : frame.casters) geometries.push_back(caster.geometry);
-  // Whatever stood here before must not show in the picture.
-  if (geometries != casters_) doublings_ = 0;
-  casters_ = std::move(geometries);
   const glm::dvec2 size = shadows_.high - shadows_.low;
   const double finest = std::max(size.x, size.y) / request.tiles;
   const gl::Limits& limits = frame.capabilities.limits;

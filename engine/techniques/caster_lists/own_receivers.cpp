@@ -6,22 +6,24 @@
 
 namespace halfshadow::techniques {
 
-Status listOwnReceivers(const LightFrame& frame, LightLists& lists, std::string_view tilesKey,
-                        std::span<const SubLight> subLights, OwnSurfaces which, ReceiverShading& shading) {
+Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
+                                         LightLists& lists, std::string_view tilesKey,
+                                         std::span<const SubLight> subLights, OwnSurfaces which) {
+  if (!shading) return shading;
   const auto needsNone = [which](const scene::CasterPart& part) {
     return part.convex && (which == OwnSurfaces::hollow || !isCoarse(part));
   };
   const bool some = std::ranges::any_of(frame.receivers, [&](const DrawItem& item) {
     return item.casts && !std::ranges::all_of(item.halfEdges().parts(), needsNone);
   });
-  if (!some) return {};
+  if (!some) return shading;
   const ListRequest request{.subLights = subLights,
                             .receivers = ListedReceivers::casting,
                             .tiles = frame.settings.integer(tilesKey),
                             .tilesKey = tilesKey};
-  if (Status s = lists.update(frame, request); !s) return s;
-  lists.provide(frame, shading);
-  return {};
+  if (Status s = lists.update(frame, request); !s) return s.error();
+  lists.provide(frame, *shading);
+  return shading;
 }
 
 }  // namespace halfshadow::techniques

@@ -26,12 +26,8 @@ class OwnReceivers {
             "the surfaces of casters that are not convex"};
   }
   Result<ReceiverShading> addTo(Result<ReceiverShading> shading, const LightFrame& frame) {
-    if (!shading) return shading;
-    if (Status s = listOwnReceivers(frame, lists_[frame.lightIndex], tilesKey_, {&kWholeLight, 1},
-                                    OwnSurfaces::hollow, *shading);
-        !s)
-      return s.error();
-    return shading;
+    return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], tilesKey_, {&kWholeLight, 1},
+                            OwnSurfaces::hollow);
   }
   void contextLost() { lists_.clear(); }
 

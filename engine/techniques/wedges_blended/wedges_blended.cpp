@@ -102,9 +102,8 @@ class WedgesBlended final : public Technique {
     if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame, light.lists);
     if (const auto merge = targetMerge(frame)) {
       const bool centres = frame.settings.choice("wedges-blended.cog") == "on";
-      return withOwnReceivers(
-          declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres}), frame,
-          light.lists);
+      return withOwn(declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres}), frame,
+                     light.lists);
     }
     return gather(frame, light.lists);
   }
@@ -124,17 +123,13 @@ class WedgesBlended final : public Technique {
   /// Without overlap there is nothing to blend.
   Result<ReceiverShading> addUp(const LightFrame& frame, LightLists& lists) {
     frame.graph.noteSkipped("blending", "no two casters shadow the same receiver: their shares are added up");
-    return withOwnReceivers(routes_.declareSums(frame, "auto"), frame, lists);
+    return withOwn(routes_.declareSums(frame, "auto"), frame, lists);
   }
 
-  static Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
-                                                  LightLists& lists) {
-    if (!shading) return shading;
-    if (Status s = listOwnReceivers(frame, lists, "wedges-blended.tiles", {&kWholeLight, 1},
-                                    OwnSurfaces::hollow, *shading);
-        !s)
-      return s.error();
-    return shading;
+  static Result<ReceiverShading> withOwn(Result<ReceiverShading> shading, const LightFrame& frame,
+                                         LightLists& lists) {
+    return techniques::withOwnReceivers(std::move(shading), frame, lists, "wedges-blended.tiles",
+                                        {&kWholeLight, 1}, OwnSurfaces::hollow);
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.

@@ -91,12 +91,8 @@ Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
   auto shading = declareCellTargets(frame, draws_[frame.lightIndex],
                                     std::stoi(frame.settings.choice("wedges-cells.bytes")),
                                     route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
-  if (!shading) return shading;
-  if (Status s = listOwnReceivers(frame, lists_[frame.lightIndex], "wedges-cells.tiles", kQuarters,
-                                  OwnSurfaces::hollowOrCoarse, *shading);
-      !s)
-    return s.error();
-  return shading;
+  return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], "wedges-cells.tiles",
+                          kQuarters, OwnSurfaces::hollowOrCoarse);
 }
 
 Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
