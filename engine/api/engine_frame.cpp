@@ -107,6 +107,12 @@ std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, con
 }
 }  // namespace
 
+techniques::Technique* Engine::State::techniqueNamed(std::string_view id) const {
+  const auto found =
+      std::ranges::find_if(techniques, [&](const auto& candidate) { return candidate->info().id == id; });
+  return found == techniques.end() ? nullptr : found->get();
+}
+
 Status Engine::State::declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
                                    const std::vector<const EngineObject*>& sceneObjects,
                                    std::uint64_t sceneRevision, const RenderDesc& desc) {
@@ -133,9 +139,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   if (!plan.active || cache.fit.empty || plan.casters.empty()) {
     frame.graph.noteSkipped("light " + std::to_string(index) + " shadows",
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
-    for (const auto& candidate : techniques) {
-      if (candidate->info().id == "none") used = candidate.get();
-    }
+    used = techniqueNamed("none");
   }
   double farthest = 0.0;
   for (const EngineObject* object : sceneObjects) {
@@ -164,6 +168,14 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       .contentKey = plan.contentKey,
       .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision),
       .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
+  if (const auto standIn = used->standIn(lightFrame)) {
+    const bool hostEvaluates = desc.output == Output::lightsOnly;
+    const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
+                                              : "; " + standIn->id + " takes the light";
+    frame.graph.noteSkipped("light " + std::to_string(index) + " " + used->info().id,
+                            standIn->reason + outcome);
+    if (!hostEvaluates) used = techniqueNamed(standIn->id);
+  }
   auto shading = used->declare(lightFrame);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();

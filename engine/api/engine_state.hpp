@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "framegraph/executor.hpp"
@@ -99,6 +100,8 @@ struct Engine::State {
   Outcome fail(const Error& error);
   Status checkForward(std::size_t light) const;
   gl::HostStatePolicy policy() const;
+  /// Null when there is none of that id.
+  techniques::Technique* techniqueNamed(std::string_view id) const;
   Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
                       const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision,
                       const RenderDesc& desc);

@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -130,6 +131,12 @@ struct ReceiverShading {
   bool forward = true;  ///< may be evaluated inside a host's own fragment shader
 };
 
+/// Another technique that takes a light where this one would draw it wrong.
+struct StandIn {
+  std::string id;      ///< one that needs no capability and has no stand-in itself
+  std::string reason;  ///< what about the light or its casters asks for it, for the frame's report
+};
+
 class Technique {
  public:
   virtual ~Technique() = default;
@@ -138,6 +145,12 @@ class Technique {
   virtual Support support(const gl::Capabilities& capabilities) const {
     (void)capabilities;
     return {};
+  }
+  /// Asked each frame before `declare`, about geometry alone. Lights whose visibility a host evaluates itself
+  /// keep their technique, since a stand-in may work on the screen only.
+  virtual std::optional<StandIn> standIn(const LightFrame& frame) const {
+    (void)frame;
+    return std::nullopt;
   }
   /// Adds light, mask and screen passes to the graph and says how receivers consume them.
   virtual Result<ReceiverShading> declare(const LightFrame& frame) = 0;
