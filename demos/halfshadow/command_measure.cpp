@@ -17,7 +17,8 @@ struct Arguments {
   DriverArguments driver;
   SettingArguments settings;
   std::vector<std::string> techniques{"all"};
-  int samples = 4096, frames = 5;
+  TruthArguments truth;
+  int frames = 5;
   std::string dump, json;
 };
 
@@ -90,8 +91,9 @@ ExitStatus measureScene(const Arguments& arguments) {
   auto truth = [&] {
     ProgressLine progress;
     return measure::traceTruth(
-        *scene, arguments.size.width, arguments.size.height, arguments.samples,
-        [&progress](const std::string& stage, double share) { progress.update(stage, share); });
+        *scene, arguments.size.width, arguments.size.height, arguments.truth.samples,
+        [&progress](const std::string& stage, double share) { progress.update(stage, share); },
+        arguments.truth.originLiftWorld);
   }();
   if (!truth) return fail(truth.error());
   const auto techniques = measureAll(**session, *scene, *truth, *ids, arguments);
@@ -133,9 +135,7 @@ void addMeasureCommand(CLI::App& app, ExitStatus& status) {
       ->allow_extra_args(false);
   addSettingArguments(*command, arguments->settings);
   addSizeArgument(*command, arguments->size);
-  command->add_option("--samples", arguments->samples, "light points per pixel of the truth")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
+  addTruthArguments(*command, arguments->truth);
   command
       ->add_option("--frames", arguments->frames,
                    "frames timed per technique, moving light and standing still each; 0 times nothing")

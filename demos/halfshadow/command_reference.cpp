@@ -17,7 +17,7 @@ struct Arguments {
   SceneArguments scene;
   SizeArguments size;
   std::string output, receivers, json;
-  int samples = 4096;
+  TruthArguments truth;
   std::uint32_t seed = 1;
 };
 
@@ -49,9 +49,10 @@ ExitStatus traceReference(const Arguments& arguments) {
   if (!receivers) return fail(receivers.error());
   ProgressLine progress;
   const reference::ReferenceOptions options{
-      .samples = arguments.samples, .seed = arguments.seed, .progress = [&progress](double share) {
-        progress.update("ground truth", share);
-      }};
+      .samples = arguments.truth.samples,
+      .seed = arguments.seed,
+      .originLiftWorld = arguments.truth.originLiftWorld,
+      .progress = [&progress](double share) { progress.update("ground truth", share); }};
   auto visibility = reference::traceVisibility(*scene, light, *receivers, options);
   if (!visibility) return fail(visibility.error());
   const auto receiverPixels =
@@ -66,17 +67,19 @@ ExitStatus traceReference(const Arguments& arguments) {
     if (Status status = write(arguments.receivers, arguments, std::move(mask)); !status)
       return fail(status.error());
   }
-  const int traced = reference::tracedSamples(arguments.samples);
+  const int traced = reference::tracedSamples(arguments.truth.samples);
   if (printsText(arguments.json)) {
     std::printf("%s: %dx%d, %d light points per pixel, %zu receiver pixels\n", arguments.output.c_str(),
                 arguments.size.width, arguments.size.height, traced, receiverPixels);
   }
-  const Json json{{"scene", scene->name},
-                  {"size", {arguments.size.width, arguments.size.height}},
-                  {"light", measure::lightJson(light)},
-                  {"truth", {{"samples", traced}, {"seed", arguments.seed}}},
-                  {"pixels", {{"receiver", receiverPixels}}},
-                  {"notes", scene->notes}};
+  const Json json{
+      {"scene", scene->name},
+      {"size", {arguments.size.width, arguments.size.height}},
+      {"light", measure::lightJson(light)},
+      {"truth",
+       {{"samples", traced}, {"seed", arguments.seed}, {"origin_lift", arguments.truth.originLiftWorld}}},
+      {"pixels", {{"receiver", receiverPixels}}},
+      {"notes", scene->notes}};
   const Status written = writeJson(arguments.json, json);
   return written ? kDone : fail(written.error());
 }
@@ -95,9 +98,7 @@ void addReferenceCommand(CLI::App& app, ExitStatus& status) {
       ->add_option("--receivers", arguments->receivers,
                    "write 1 on receiver pixels and 0 elsewhere, OpenEXR: weights for `compare`")
       ->check(endsWith(".exr"));
-  command->add_option("--samples", arguments->samples, "light points per pixel")
-      ->check(CLI::Range(1, 1 << 24))
-      ->capture_default_str();
+  addTruthArguments(*command, arguments->truth);
   command->add_option("--seed", arguments->seed, "another seed gives independent noise")
       ->check(CLI::Range(std::uint32_t{0}, std::numeric_limits<std::uint32_t>::max()))
       ->capture_default_str();

@@ -104,6 +104,18 @@ void addSizeArgument(CLI::App& app, SizeArguments& arguments) {
       ->capture_default_str();
 }
 
+void addTruthArguments(CLI::App& app, TruthArguments& arguments) {
+  app.add_option("--samples", arguments.samples, "light points per pixel of the truth")
+      ->check(CLI::Range(1, 1 << 24))
+      ->capture_default_str();
+  app.add_option(
+         "--origin-lift", arguments.originLiftWorld,
+         "how far rays start above casters' facets, world units; 0: on the facet. Only to compare with "
+         "a truth that was made so")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str();
+}
+
 void addDriverArguments(CLI::App& app, DriverArguments& arguments) {
   app.add_option("--driver", arguments.driver, "OpenGL ES driver: default, llvmpipe, softpipe, angle, device")
       ->check(CLI::IsMember({"default", "llvmpipe", "softpipe", "angle", "device"}))

@@ -30,6 +30,11 @@ struct SizeArguments {
   int width = 640, height = 480;
 };
 
+struct TruthArguments {
+  int samples = 4096;
+  double originLiftWorld = 0.0;
+};
+
 struct DriverArguments {
   std::string driver = "default", eglLibrary, deviceProfile = "auto";
   std::vector<std::string> force;  ///< "depth-texture=off"
@@ -49,6 +54,7 @@ CLI::Validator endsWith(const std::string& extension);
 void addSceneArguments(CLI::App& app, SceneArguments& arguments);
 /// --size.
 void addSizeArgument(CLI::App& app, SizeArguments& arguments);
+void addTruthArguments(CLI::App& app, TruthArguments& arguments);
 /// --driver, --egl-library, --force, --device-profile.
 void addDriverArguments(CLI::App& app, DriverArguments& arguments);
 /// --set.

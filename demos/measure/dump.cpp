@@ -53,7 +53,8 @@ images::FloatImage positionImage(const Truth& truth) {
 images::FloatImage normalImage(const Truth& truth) {
   images::FloatImage image{
       .width = truth.width, .height = truth.height, .channels = 3, .channelNames = {"R", "G", "B"}};
-  for (const glm::vec3& normal : truth.receivers.normalWorld) {
+  for (const glm::dvec3& normalWorld : truth.receivers.normalWorld) {
+    const glm::vec3 normal(normalWorld);
     image.pixels.insert(image.pixels.end(), {normal.x, normal.y, normal.z});
   }
   return image;

@@ -17,9 +17,8 @@ Status prepareDumpFolder(const std::filesystem::path& folder);
 /// Writes, each file atomically:
 ///  - geometry.obj: world-space triangles of all casters (`v`, `f`); receivers.obj: of the objects that cast
 ///    nothing, which must not occlude;
-///  - light.json: center, half-extent vectors u and v, origin_lift (the reference lifts ray origins that lie
-///  on
-///    casters along the normal by this, world units);
+///  - light.json: center, half-extent vectors u and v, origin_lift (world units by which rays started above
+///    casters' facets, as asked for; 0 otherwise);
 ///  - position.exr: RGBA, world position, A = 1 on receiver pixels; normal.exr: RGB;
 ///  - reference.exr and <technique>.exr: channel "V".
 Status dumpMeasurement(const std::filesystem::path& folder, const scene::SceneDescription& scene,

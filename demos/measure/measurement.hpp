@@ -33,8 +33,9 @@ struct Truth {
 };
 
 /// `scene` has a camera and a light (scenes::openScene gives both). Errors: those of reference.hpp.
+/// `originLiftWorld`: see reference::ReferenceOptions.
 Result<Truth> traceTruth(const scene::SceneDescription& scene, int width, int height, int samples,
-                         const Progress& progress);
+                         const Progress& progress, double originLiftWorld = 0.0);
 
 struct ErrorSet {
   metrics::ErrorStatistics receiver, penumbra;

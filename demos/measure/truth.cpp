@@ -7,14 +7,14 @@
 namespace halfshadow::measure {
 
 Result<Truth> traceTruth(const scene::SceneDescription& scene, int width, int height, int samples,
-                         const Progress& progress) {
+                         const Progress& progress, double originLiftWorld) {
   const scene::AreaLight& light = scene.lights.front();
   auto receivers = reference::traceReceivers(scene, *scene.camera, light, width, height);
   if (!receivers) return receivers.error();
   Truth truth{.width = width, .height = height, .samples = reference::tracedSamples(samples)};
   truth.receivers = std::move(receivers).value();
-  truth.originLiftWorld = reference::automaticOriginLift(scene);
-  reference::ReferenceOptions options{.samples = samples};
+  truth.originLiftWorld = originLiftWorld;
+  reference::ReferenceOptions options{.samples = samples, .originLiftWorld = originLiftWorld};
   const auto report = [&progress](const char* stage) -> std::function<void(double)> {
     if (!progress) return {};
     return [&progress, stage](double share) { progress(stage, share); };

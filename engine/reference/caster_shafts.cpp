@@ -14,9 +14,9 @@ constexpr std::uint32_t kTrianglesPerLeaf = 4;
 struct HalfSpace {
   glm::dvec3 normal;
   double offset;
-  bool contains(const glm::vec3& point) const { return glm::dot(normal, glm::dvec3(point)) <= offset; }
+  bool contains(const glm::dvec3& point) const { return glm::dot(normal, point) <= offset; }
   /// The box corner farthest inside decides.
-  bool touchesBox(const glm::vec3& low, const glm::vec3& high) const {
+  bool touchesBox(const glm::dvec3& low, const glm::dvec3& high) const {
     double nearest = 0.0;
     for (int axis = 0; axis < 3; ++axis)
       nearest += normal[axis] * (normal[axis] > 0.0 ? low[axis] : high[axis]);
@@ -29,14 +29,14 @@ struct Shaft {
   std::array<HalfSpace, 6> halfSpaces;
   glm::dvec3 low, high;
 
-  bool touchesBox(const glm::vec3& boxLow, const glm::vec3& boxHigh) const {
+  bool touchesBox(const glm::dvec3& boxLow, const glm::dvec3& boxHigh) const {
     for (int axis = 0; axis < 3; ++axis) {
       if (boxHigh[axis] < low[axis] || boxLow[axis] > high[axis]) return false;
     }
     return std::all_of(halfSpaces.begin(), halfSpaces.end(),
                        [&](const HalfSpace& h) { return h.touchesBox(boxLow, boxHigh); });
   }
-  bool touchesTriangle(const std::array<glm::vec3, 3>& corners) const {
+  bool touchesTriangle(const std::array<glm::dvec3, 3>& corners) const {
     return std::all_of(halfSpaces.begin(), halfSpaces.end(), [&](const HalfSpace& h) {
       return h.contains(corners[0]) || h.contains(corners[1]) || h.contains(corners[2]);
     });
@@ -46,10 +46,9 @@ struct Shaft {
 /// Fails where the apex is in the light's plane or the light has no area: there the sides have no direction.
 bool makeShaft(const glm::dvec3& apex, const TraceLight& light, Shaft& shaft) {
   const glm::dvec3 toCenter = light.center - apex;
-  // Rays start and end at float coordinates; 1e-6 of the distances involved is some ten units of their last
-  // place.
-  const double slack = 1e-6 * (4.0 + glm::length(apex) + glm::length(light.center) +
-                               glm::length(light.halfU) + glm::length(light.halfV));
+  // Some ten units in the last place of the distances involved.
+  const double slack = 4e-15 * (4.0 + glm::length(apex) + glm::length(light.center) +
+                                glm::length(light.halfU) + glm::length(light.halfV));
   const glm::dvec3 areaNormal = glm::cross(light.halfU, light.halfV);
   if (!(glm::length(areaNormal) > 0.0)) return false;
   glm::dvec3 normal = glm::normalize(areaNormal);
@@ -93,7 +92,7 @@ std::uint32_t CasterShafts::addNode(std::uint32_t first, std::uint32_t count) {
   Node node;
   node.low = node.high = triangles_[first].corners[0];
   for (std::uint32_t i = first; i < first + count; ++i) {
-    for (const glm::vec3& corner : triangles_[i].corners) {
+    for (const glm::dvec3& corner : triangles_[i].corners) {
       node.low = glm::min(node.low, corner), node.high = glm::max(node.high, corner);
     }
   }
@@ -103,7 +102,7 @@ std::uint32_t CasterShafts::addNode(std::uint32_t first, std::uint32_t count) {
     nodes_[index].count = count;
     return index;
   }
-  const glm::vec3 size = node.high - node.low;
+  const glm::dvec3 size = node.high - node.low;
   const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
   const std::uint32_t half = count / 2;
   const auto begin = triangles_.begin() + first;
@@ -119,10 +118,10 @@ std::uint32_t CasterShafts::addNode(std::uint32_t first, std::uint32_t count) {
   return index;
 }
 
-bool CasterShafts::mayOcclude(const glm::vec3& origin, const TraceLight& light) const {
+bool CasterShafts::mayOcclude(const glm::dvec3& origin, const TraceLight& light) const {
   if (nodes_.empty()) return false;
   Shaft shaft;
-  if (!makeShaft(glm::dvec3(origin), light, shaft)) return true;
+  if (!makeShaft(origin, light, shaft)) return true;
   std::array<std::uint32_t, 64> pending;  // halving at every level: depth at most 32
   std::size_t pendingCount = 0;
   pending[pendingCount++] = 0;

@@ -26,14 +26,14 @@ class CasterShafts {
 
   /// False only if no triangle touches the pyramid whose apex is `origin` and whose base is the light, so
   /// that no ray from the one to the other can hit; true where that is not proved.
-  bool mayOcclude(const glm::vec3& origin, const TraceLight& light) const;
+  bool mayOcclude(const glm::dvec3& origin, const TraceLight& light) const;
 
  private:
   struct Triangle {
-    std::array<glm::vec3, 3> corners;
+    std::array<glm::dvec3, 3> corners;
   };
   struct Node {
-    glm::vec3 low{0.0f}, high{0.0f};
+    glm::dvec3 low{0.0}, high{0.0};
     std::uint32_t first = 0, count = 0;  ///< triangles; count 0 = inner node
     std::uint32_t right = 0;             ///< inner node: its left child follows it directly
   };

@@ -16,7 +16,6 @@
 namespace halfshadow::reference {
 namespace {
 
-constexpr std::size_t kPacketRays = 16;
 constexpr std::size_t kPixelsPerChunk = 32;
 // What the measurements call penumbra; this module does not depend on theirs.
 constexpr float kPenumbraLow = 0.005f, kPenumbraHigh = 0.995f;
@@ -64,14 +63,14 @@ std::vector<Stratum> strataInPacketOrder(Strata strata) {
 /// Everything that the threads share, read-only.
 class VisibilityTracer {
  public:
-  VisibilityTracer(EmbreeScene casters, const std::vector<TraceMesh>& meshes, const TraceSpace& space,
-                   const scene::AreaLight& light, const ReferenceOptions& options, double originLiftWorld)
+  VisibilityTracer(EmbreeScene casters, CasterShafts shafts, const TraceSpace& space,
+                   const scene::AreaLight& light, const ReferenceOptions& options)
       : casters_(std::move(casters)),
-        shafts_(meshes),
+        shafts_(std::move(shafts)),
         space_(space),
         light_{space.fromWorld(light.centerWorld), light.halfU * space.traceFromWorldScale,
                light.halfV * space.traceFromWorldScale},
-        lift_(originLiftWorld * space.traceFromWorldScale),
+        lift_(options.originLiftWorld * space.traceFromWorldScale),
         seedKey_(scattered(options.seed + 0x9e3779b9u)) {
     const Strata strata = light_.hasSize() ? strataFor(options.samples) : Strata{1, 1};
     order_ = strataInPacketOrder(strata);
@@ -81,42 +80,36 @@ class VisibilityTracer {
 
   float visibility(const ReceiverImage& receivers, std::uint32_t pixel) const {
     if (receivers.kind[pixel] == kNoReceiver) return 1.0f;
-    glm::dvec3 origin = space_.fromWorld(receivers.positionWorld[pixel]);
-    if (receivers.kind[pixel] == kCasterReceiver) origin += lift_ * glm::dvec3(receivers.normalWorld[pixel]);
-    if (light_.hasSize() && !shafts_.mayOcclude(glm::vec3(origin), light_)) return 1.0f;
-    return tracedVisibility(glm::vec3(origin), scattered(seedKey_ ^ pixel));
+    RayOrigin origin{.point = space_.fromWorld(receivers.positionWorld[pixel]),
+                     .normal = receivers.normalWorld[pixel]};
+    if (receivers.kind[pixel] == kCasterReceiver) origin.point += lift_ * origin.normal;
+    origin.rounding = kPointRounding * (glm::length(origin.point) +
+                                        space_.traceFromWorldScale * glm::length(space_.centerWorld));
+    if (light_.hasSize() && !shafts_.mayOcclude(origin.point, light_)) return 1.0f;
+    return tracedVisibility(origin, scattered(seedKey_ ^ pixel));
   }
 
  private:
-  float tracedVisibility(const glm::vec3& origin, std::uint32_t pixelKey) const {
-    const glm::vec3 toCenter(light_.center - glm::dvec3(origin)), halfU(light_.halfU), halfV(light_.halfV);
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
-    alignas(64) RTCRay16 rays{};
-    alignas(64) int valid[kPacketRays];
-    std::fill(std::begin(rays.org_x), std::end(rays.org_x), origin.x);
-    std::fill(std::begin(rays.org_y), std::end(rays.org_y), origin.y);
-    std::fill(std::begin(rays.org_z), std::end(rays.org_z), origin.z);
-    std::fill(std::begin(rays.mask), std::end(rays.mask), ~0u);
+  /// Positions come from a camera ray in double: a few units in the last place.
+  static constexpr double kPointRounding = 0x1p-48;
+
+  float tracedVisibility(const RayOrigin& origin, std::uint32_t pixelKey) const {
+    const glm::dvec3 toCenter = light_.center - origin.point;
+    RayPacket rays;
     std::size_t hidden = 0;
     for (std::size_t first = 0; first < order_.size(); first += kPacketRays) {
-      const std::size_t count = std::min(kPacketRays, order_.size() - first);
-      for (std::size_t i = 0; i < kPacketRays; ++i) {
-        const Stratum& stratum = order_[first + std::min(i, count - 1)];
+      rays.count = std::min(kPacketRays, order_.size() - first);
+      for (std::size_t i = 0; i < rays.count; ++i) {
+        const Stratum& stratum = order_[first + i];
         const std::uint32_t bits = scattered(pixelKey + stratum.number * 0x9e3779b9u);
         // The two halves of one 32-bit value place the point inside its cell; 2^-16 of a cell is enough.
         const float jitterA = (static_cast<float>(bits & 0xffffu) + 0.5f) * (1.0f / 65536.0f);
         const float jitterB = (static_cast<float>(bits >> 16) + 0.5f) * (1.0f / 65536.0f);
-        const glm::vec3 direction =
-            toCenter + (stratum.a + jitterA * widthA_) * halfU + (stratum.b + jitterB * widthB_) * halfV;
-        rays.dir_x[i] = direction.x, rays.dir_y[i] = direction.y, rays.dir_z[i] = direction.z;
-        rays.tnear[i] = 0.0f;
-        rays.tfar[i] = 1.0f;
-        valid[i] = i < count ? -1 : 0;
+        const double a = stratum.a + jitterA * widthA_, b = stratum.b + jitterB * widthB_;
+        const glm::dvec3 direction = toCenter + a * light_.halfU + b * light_.halfV;
+        rays.x[i] = direction.x, rays.y[i] = direction.y, rays.z[i] = direction.z;
       }
-      rtcOccluded16(valid, casters_.handle(), &context, &rays);
-      for (std::size_t i = 0; i < count; ++i) hidden += rays.tfar[i] < 0.0f;
+      hidden += casters_.occluded(origin, rays);
     }
     return static_cast<float>(1.0 - static_cast<double>(hidden) / static_cast<double>(order_.size()));
   }
@@ -168,11 +161,6 @@ int tracedSamples(int samples) {
   return strata.columns * strata.rows;
 }
 
-double automaticOriginLift(const scene::SceneDescription& scene) {
-  const double radius = scene::boundsWorld(scene, scene::ObjectFilter::casters).radius();
-  return radius > 0.0 ? 0.002 * std::pow(10.0, std::floor(std::log10(radius))) : 0.0;
-}
-
 Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, const scene::AreaLight& light,
                                        const ReceiverImage& receivers,
                                        std::span<const std::uint32_t> pixelIndices,
@@ -180,6 +168,9 @@ Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, con
   const std::size_t pixelCount = receivers.kind.size();
   if (options.samples < 1 || options.samples > (1 << 24)) {
     return Error{ErrorCode::invalidArgument, "the reference needs between 1 and 16777216 samples per pixel"};
+  }
+  if (!(options.originLiftWorld >= 0.0) || !std::isfinite(options.originLiftWorld)) {
+    return Error{ErrorCode::invalidArgument, "the origin lift must be a finite number of world units >= 0"};
   }
   if (receivers.positionWorld.size() != pixelCount || receivers.normalWorld.size() != pixelCount ||
       std::any_of(pixelIndices.begin(), pixelIndices.end(),
@@ -196,11 +187,15 @@ Result<std::vector<float>> tracePixels(const scene::SceneDescription& scene, con
   for (const scene::SceneObject& object : scene.objects) {
     if (object.casts) casters.push_back(traceMeshOf(object, space));
   }
-  Result<EmbreeScene> embree = EmbreeScene::build(casters);
+  double reach = 0.0;
+  for (const std::uint32_t pixel : pixelIndices) {
+    if (receivers.kind[pixel] == kNoReceiver) continue;
+    reach = std::max(reach, glm::length(space.fromWorld(receivers.positionWorld[pixel])));
+  }
+  CasterShafts shafts(casters);
+  Result<EmbreeScene> embree = EmbreeScene::build(std::move(casters), reach);
   if (!embree) return embree.error();
-  const double originLiftWorld =
-      options.originLiftWorld >= 0.0 ? options.originLiftWorld : automaticOriginLift(scene);
-  const VisibilityTracer tracer(std::move(*embree), casters, space, light, options, originLiftWorld);
+  const VisibilityTracer tracer(std::move(*embree), std::move(shafts), space, light, options);
   traceInThreads(tracer, receivers, pixelIndices, options, visibility);
   return visibility;
 }

@@ -28,8 +28,8 @@ enum ReceiverKind : std::uint8_t {
 struct ReceiverImage {
   int width = 0, height = 0;
   std::vector<glm::dvec3> positionWorld;
-  std::vector<glm::vec3> normalWorld;  ///< unit, of the triangle (not interpolated), on the camera's side
-  std::vector<std::uint8_t> kind;      ///< ReceiverKind
+  std::vector<glm::dvec3> normalWorld;  ///< unit, of the triangle (not interpolated), on the camera's side
+  std::vector<std::uint8_t> kind;       ///< ReceiverKind
 };
 
 /// Traces one ray through each pixel centre, between the camera's near and far planes.
@@ -43,17 +43,13 @@ struct ReferenceOptions {
   int samples = 4096;      ///< light points per pixel, >= 1; rounded up, see tracedSamples
   std::uint32_t seed = 1;  ///< another seed gives independent noise
   int threads = 0;         ///< 0 = one per hardware thread
-  /// How far the ray origins on casters are lifted along the normal, in world units, so that a surface does
-  /// not shadow itself; negative = automaticOriginLift.
-  double originLiftWorld = -1.0;
+  /// How far ray origins on casters are lifted along the normal, in world units. 0: rays start on the facet
+  /// itself, as light arrives. Another truth's lift makes images comparable with it where facets meet the
+  /// light at a grazing angle.
+  double originLiftWorld = 0.0;
   /// Share done, 0 … 1; called by the calling thread only; may be empty.
   std::function<void(double)> progress;
 };
-
-/// 0.002 · 10^floor(log10(r)), r the radius of the casters' bounds: around a thousandth of the casters' size,
-/// but equal for scenes of like size so that their images can be compared (0.002 for 1 <= r < 10). It matters
-/// where facets meet the light at a grazing angle. 0 without casters.
-double automaticOriginLift(const scene::SceneDescription& scene);
 
 /// The number of light points that a request leads to: n × m strata with n = ceil(sqrt(samples)) and
 /// m = ceil(samples / n).
@@ -61,10 +57,13 @@ int tracedSamples(int samples);
 
 /// Visibility at every pixel: the share of the light's *area* (not weighted by any cosine) that no caster
 /// hides, 1 where kind is kNoReceiver. Receivers beside or behind the light's plane are treated like all
-/// others. A light of size zero gives 0 or 1. Unbiased; equal for equal seed whatever the number of threads.
-/// Errors: invalidArgument (samples not in 1 … 2^24, vectors of the wrong length), invalidLight (NaN or
-/// infinite), outOfMemory, internal (Embree refused to start).
-/// Based on: Mitchell, Consequences of Stratified Sampling in Graphics, 1996, for jittered strata.
+/// others. A triangle that lies in the plane of the receiver's facet as far as single precision tells does
+/// not hide it: that facet, its continuation, or a second surface in the same place. All else is decided in
+/// double precision, so neither the extent of the scene nor the place of anything else matters. A light of
+/// size zero gives 0 or 1. Unbiased; equal for equal seed whatever the number of threads. Errors:
+/// invalidArgument (samples not in 1 … 2^24, vectors of the wrong length), invalidLight (NaN or infinite),
+/// outOfMemory, internal (Embree refused to start). Based on: Mitchell, Consequences of Stratified Sampling
+/// in Graphics, 1996, for jittered strata.
 Result<std::vector<float>> traceVisibility(const scene::SceneDescription& scene,
                                            const scene::AreaLight& light, const ReceiverImage& receivers,
                                            const ReferenceOptions& options);

@@ -36,7 +36,7 @@ inline reference::ReceiverImage receiverGrid(int side, glm::dvec3 centerWorld, g
     for (int x = 0; x < side; ++x) {
       image.positionWorld.push_back(centerWorld + u * ((x + 0.5) / side * 2 - 1) +
                                     v * ((y + 0.5) / side * 2 - 1));
-      image.normalWorld.push_back(glm::vec3(glm::normalize(glm::cross(u, v))));
+      image.normalWorld.push_back(glm::normalize(glm::cross(u, v)));
       image.kind.push_back(reference::kGroundReceiver);
     }
   }

@@ -136,15 +136,6 @@ TEST(Reference, SamplesAreRoundedUpToWholeStrata) {
   EXPECT_EQ(reference::tracedSamples(0), 0);
 }
 
-TEST(Reference, AutomaticLiftFollowsTheCastersSize) {
-  scene::SceneDescription scene;
-  EXPECT_EQ(reference::automaticOriginLift(scene), 0.0);
-  scene.objects.push_back(parallelogram("plate", {5, 5, 5}, {0, 0, 2}, {2, 0, 0}));
-  EXPECT_DOUBLE_EQ(reference::automaticOriginLift(scene), 0.002);
-  scene.objects[0] = parallelogram("plate", {5, 5, 5}, {0, 0, 0.002}, {0.002, 0, 0});
-  EXPECT_NEAR(reference::automaticOriginLift(scene), 2e-6, 1e-12);
-}
-
 TEST(Receivers, KindsPositionsAndNormals) {
   scene::SceneDescription scene = plateScene();
   scene.objects.push_back(parallelogram("wall", {0, 1, -4.9}, {4, 0, 0}, {0, 1, 0}));

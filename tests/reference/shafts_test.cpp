@@ -41,13 +41,13 @@ TEST(CasterShafts, APointProvedLitIsHitByNoRay) {
       const glm::dvec3 center = vector(0.8);
       for (int corner = 0; corner < 3; ++corner) {
         casters[0].indices.push_back(static_cast<std::uint32_t>(casters[0].positions.size()));
-        casters[0].positions.push_back(glm::vec3(center + vector(0.2)));
+        casters[0].positions.push_back(center + vector(0.2));
       }
     }
     const CasterShafts shafts(casters);
     const TraceLight light{vector(3.0), vector(0.5), vector(0.5)};
     for (int point = 0; point < 20; ++point) {
-      const glm::vec3 origin(vector(2.0));
+      const glm::dvec3 origin = vector(2.0);
       if (shafts.mayOcclude(origin, light)) {
         ++undecided;
         continue;

@@ -37,10 +37,7 @@ HardTruth hardTruth(const scene::SceneDescription& scene, std::size_t lightIndex
   light.halfU = light.halfV = glm::dvec3(0.0);
   const auto receivers = reference::traceReceivers(scene, *scene.camera, light, kWidth, kHeight);
   EXPECT_TRUE(receivers) << receivers.error().message;
-  // A fortieth of the automatic lift: enough for float positions, too little to look around a facet's edge.
-  const auto visibility = reference::traceVisibility(
-      scene, light, *receivers,
-      {.samples = 1, .threads = 1, .originLiftWorld = reference::automaticOriginLift(scene) / 40.0});
+  const auto visibility = reference::traceVisibility(scene, light, *receivers, {.samples = 1, .threads = 1});
   EXPECT_TRUE(visibility) << visibility.error().message;
   HardTruth truth;
   const std::size_t pixels = receivers->kind.size();
