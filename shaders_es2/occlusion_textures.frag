@@ -6,10 +6,11 @@
 #include "tap_count.glsl"
 #include "occlusion_filter.glsl"
 varying HS_HIGHP vec4 v_map;               // see SliceSpace::mapFromWorld
-uniform HS_HIGHP vec4 u_slices[HS_SLOTS];  // x: nearer border, y: farther border, z: 1 / thickness
-uniform HS_HIGHP vec4 u_slicePlace;        // xy: place of the light's axis; ratio on plane s = z + s w
-uniform HS_HIGHP vec4 u_sliceWidth;        // frustum's side on plane s = x + s y - z ratio / distance
-uniform HS_HIGHP vec4 u_sliceOwn;          // own s = v_map.z / (x v_map.w + y); z: bias, w: 1 / fade
+// x: nearer border, y: farther border, z: 1 / thickness, w: the share of it that an occluder must be nearer than a
+// receiver, and over which its shadow then fades in
+uniform HS_HIGHP vec4 u_slices[HS_SLOTS];
+uniform HS_HIGHP vec4 u_slicePlace;  // xy: place of the light's axis; ratio on plane s = z + s w
+uniform HS_HIGHP vec4 u_sliceOwn;    // own s = v_map.z / (x v_map.w + y); z: frustum's side, see SliceSpace::sideScale
 uniform HS_HIGHP sampler2D u_occlusion0;
 #if HS_TEXTURES > 1
 uniform HS_HIGHP sampler2D u_occlusion1;
@@ -33,19 +34,16 @@ uniform HS_HIGHP sampler2D u_occlusion6;
 uniform HS_HIGHP sampler2D u_occlusion7;
 #endif
 
-HS_HIGHP float hs_inverseDistance;
 HS_HIGHP vec2 hs_direction;
 HS_HIGHP float hs_own;
+HS_HIGHP float hs_sidePerSlice;
 float hs_visible = 1.0;
 
 // Where the light's frustum meets plane s, in texels: its middle and its side.
 HS_HIGHP vec2 hs_middle(HS_HIGHP float s) {
   return (u_slicePlace.xy + hs_direction * (u_slicePlace.z + s * u_slicePlace.w)) * u_occlusionLayout.x;
 }
-HS_HIGHP float hs_side(HS_HIGHP float s) {
-  HS_HIGHP float ratio = u_slicePlace.z + s * u_slicePlace.w;
-  return max(u_sliceWidth.x + s * u_sliceWidth.y - u_sliceWidth.z * hs_inverseDistance * ratio, 0.0);
-}
+HS_HIGHP float hs_side(HS_HIGHP float s) { return max((hs_own - s) * hs_sidePerSlice, 0.0); }
 
 void hs_combine(float covered) {
 #if defined(HS_COMBINE_PRODUCT)
@@ -70,7 +68,7 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) 
       plane = hs_meanPlane(covered, slice);
       covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
       plane = hs_meanPlane(covered, slice);
-      hs_combine(covered.x * clamp((hs_own - plane - u_sliceOwn.z) * u_sliceOwn.w, 0.0, 1.0));
+      hs_combine(covered.x * clamp((hs_own - plane) * slice.z / slice.w - 1.0, 0.0, 1.0));
     }
   }
 }
@@ -88,9 +86,11 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice
 float halfshadow_visibility() {
   // Nearer to the light than every caster, or behind the light.
   if (v_map.z <= 0.0 || v_map.w <= 0.0) return 1.0;
-  hs_inverseDistance = 1.0 / v_map.w;
-  hs_direction = v_map.xy * hs_inverseDistance;
-  hs_own = v_map.z / (u_sliceOwn.x * v_map.w + u_sliceOwn.y);
+  HS_HIGHP float inverseDistance = 1.0 / v_map.w;
+  HS_HIGHP float divisor = u_sliceOwn.x * v_map.w + u_sliceOwn.y;
+  hs_direction = v_map.xy * inverseDistance;
+  hs_own = v_map.z / divisor;
+  hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
 #ifdef HS_CONCENTRIC
   // Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
   // beyond the map see the whole light without a fetch.

@@ -63,27 +63,52 @@ HS_HIGHP float hs_halfPlane(HS_HIGHP float signedDistance, HS_HIGHP vec2 normal,
   return signedDistance < 0.0 ? 1.0 - share : share;
 }
 
-// Share of the unit square outside a disc about its centre: the disc that reaches the nearest silhouette is all lit
-// or all shadowed. Exact up to 0.5; then the four corners, as squares of what is left of their diagonals.
-HS_HIGHP float hs_discOutside(HS_HIGHP float radius) {
-  HS_HIGHP float inscribed = min(radius, 0.5);
-  HS_HIGHP float corner = clamp((0.70711 - radius) * (1.0 / 0.20711), 0.0, 1.0);
-  return radius < 0.5 ? 1.0 - 3.14159265 * inscribed * inscribed : 0.2146 * corner * corner;
+// Share of a rectangle outside a disc about its centre: the disc that reaches the nearest silhouette is all lit or all
+// shadowed. Exact until the disc leaves the short sides; then the four corners, as squares of what is left of their
+// diagonals.
+HS_HIGHP float hs_discOutside(HS_HIGHP float radius, HS_HIGHP vec2 widths) {
+  HS_HIGHP float a = 0.5 * max(widths.x, widths.y);
+  // In units of the longer half side.
+  HS_HIGHP float b = 0.5 * min(widths.x, widths.y) / a;
+  HS_HIGHP float r = radius / a;
+  HS_HIGHP float inscribed = min(r, 1.0);
+  HS_HIGHP float sine = min(b / max(inscribed, 1e-4), 1.0);
+  HS_HIGHP float angle = asin(sine);
+  HS_HIGHP float area = inscribed * inscribed * (angle + sine * sqrt(1.0 - sine * sine));
+  HS_HIGHP float outside = 1.0 - area / (2.0 * b);
+  HS_HIGHP float diagonal = sqrt(1.0 + b * b);
+  HS_HIGHP float corner = clamp((diagonal - r) / (diagonal - 1.0), 0.0, 1.0);
+  return r < 1.0 ? outside : outside * corner * corner;
 }
 
 float hs_visibility() {
-  HS_HIGHP vec2 texel = hs_texel * u_widthPlace.xy + u_widthPlace.z;
+  HS_HIGHP vec2 place = hs_texel * u_widthPlace.xy + u_widthPlace.z;
+  HS_HIGHP vec2 texel = clamp(place, vec2(0.5), u_widthLayout.xy - 0.5);
   HS_HIGHP vec4 stored = texture2D(u_widthMap, texel * u_widthLayout.zw);
   HS_COUNT(1);
+  // No silhouette as far as distances reach.
+  if (stored.r < 0.5 / 255.0) return 1.0;
   HS_HIGHP float signedTexels = hs_unpackDistance(stored.r, u_widthRange.xy);
   HS_HIGHP vec2 normal = vec2(sqrt(max(1.0 - stored.g * stored.g, 0.0)), stored.g);
+  // Beyond the map all silhouettes are farther by the way back to it.
+  HS_HIGHP vec2 wayBack = abs(place - texel);
+  if (signedTexels < 0.0 && max(wayBack.x, wayBack.y) > 0.0) {
+    HS_HIGHP vec2 edge = normal * -signedTexels + wayBack;
+    signedTexels = -length(edge);
+    normal = edge / -signedTexels;
+  }
   HS_HIGHP float gap = hs_receiverValue - u_casterDepth.x - u_casterDepth.y * stored.b;
-// A host's program serves all of its receivers, casting or not.
-#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float margin = u_bias.x + u_bias.z * slope + u_casterDepth.y * (1.0 / 255.0);
-  if (hs_receiverValue <= u_casterDepth.x + u_casterDepth.y * stored.a + margin) {
-    // The receiver may be the caster itself: only the exact depth knows, and what it finds lit is.
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  // The receiver may be the caster itself. A host's program serves all of its receivers, casting or not.
+  bool exact = hs_receiverValue <= u_casterDepth.x + u_casterDepth.y * stored.a + margin;
+#else
+  // Occupied, but perhaps by casters behind the receiver.
+  bool exact = signedTexels > 0.0 && gap <= margin;
+#endif
+  if (exact) {
+    // Only the exact depth knows, and what it finds lit is.
     HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
     HS_HIGHP float exactGap = hs_gap(texture2D(u_depthMap, center * u_map.y), hs_receiver);
     HS_COUNT(1);
@@ -92,7 +117,6 @@ float hs_visibility() {
     HS_HIGHP vec2 widths = u_widthRange.zw * max(gap, -exactGap);
     return 1.0 - hs_halfPlane(max(signedTexels, 0.0), normal, max(widths, u_casterDepth.z));
   }
-#endif
 #ifdef HS_CORNERS
   // Straight edges are the profile's; what the boxes hold more or less than a straight edge would is corners,
   // thin casters and casters beside each other.
@@ -111,8 +135,14 @@ float hs_visibility() {
   widths = max(widths, u_casterDepth.z);
   HS_HIGHP float small = boxes.r - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower))));
   HS_HIGHP float large = boxes.b - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower + 1.0))));
-  HS_HIGHP float share = hs_halfPlane(signedTexels, normal, widths) + mix(small, large, upper);
-  HS_HIGHP float inner = hs_discOutside(abs(signedTexels) / min(widths.x, widths.y));
+  // A receiver beyond the map has the boxes of the map's border, which lie the nearer to the casters.
+  HS_HIGHP float area = widths.x * widths.y;
+  HS_HIGHP float same = clamp(1.0 - 2.0 * max(wayBack.x, wayBack.y) * inversesqrt(area), 0.0, 1.0);
+  HS_HIGHP float share = hs_halfPlane(signedTexels, normal, widths) + same * mix(small, large, upper);
+  // Beyond the largest box there is nothing, as far as boxes know.
+  HS_HIGHP float held = min(hs_boxSideSquared(u_boxLayout.z + 1.0) / area, 1.0);
+  share = mix(same * held * boxes.b, share, held);
+  HS_HIGHP float inner = hs_discOutside(abs(signedTexels), widths);
   return 1.0 - (signedTexels < 0.0 ? clamp(share, 0.0, inner) : clamp(share, 1.0 - inner, 1.0));
 #else
   return 1.0 - hs_halfPlane(signedTexels, normal, max(u_widthRange.zw * gap, u_casterDepth.z));

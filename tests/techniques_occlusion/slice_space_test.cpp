@@ -72,7 +72,8 @@ TEST(SliceSpace, FrustumSectionsOfReceiversAreThoseOfTheGeometry) {
       EXPECT_NEAR(map.z / (space->divisorScale * map.w + space->divisorConstant), drawnAt(*space, receiver).z,
                   1e-9);
       // The frustum's sides: between the lines to the middles of the light's edges.
-      const double side = space->width0 + s * space->width1 - space->widthScale * ratio / map.w;
+      const double divisor = space->divisorScale * map.w + space->divisorConstant;
+      const double side = space->sideScale * (map.z / divisor - s) * divisor / map.w;
       const auto sideAlong = [&](const glm::dvec3& half, int axis) {
         const glm::dvec3 a = drawnAt(*space, glm::mix(light.centerWorld + half, receiver, share));
         const glm::dvec3 b = drawnAt(*space, glm::mix(light.centerWorld - half, receiver, share));

@@ -14,7 +14,7 @@ namespace {
 constexpr int kMostBoxes = 8;
 /// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
 /// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
-constexpr double kOwnSurfaceBias = 0.02, kOwnSurfaceFade = 0.02;
+constexpr double kOwnSurfaceBias = 0.02;
 
 constexpr gl::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
                                         "u_occlusion4", "u_occlusion5", "u_occlusion6", "u_occlusion7"};
@@ -202,19 +202,19 @@ class OcclusionTextures final : public Technique {
       shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
     }
     std::vector<glm::vec4> borders;
-    for (const Slice& slice : space.slices)
-      borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low), 0);
+    for (const Slice& slice : space.slices) {
+      borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low),
+                           kOwnSurfaceBias * choices.slicing.slices);
+    }
     // Channels without slice lie behind every receiver.
-    borders.resize(slots, glm::vec4(1e4f, 1e4f, 0, 0));
+    borders.resize(slots, glm::vec4(1e4f, 1e4f, 0, 1));
     const glm::vec4 place(space.center, space.ratio0, space.ratio1);
-    const glm::vec4 width(space.width0, space.width1, space.widthScale, 0);
-    const glm::vec4 own(space.divisorScale, space.divisorConstant, kOwnSurfaceBias, 1.0 / kOwnSurfaceFade);
+    const glm::vec4 own(space.divisorScale, space.divisorConstant, space.sideScale, 0);
     const glm::vec4 shape(space.shape, std::max(shorter, 1.0 / boxes), 0);
-    shading.setUniforms = [borders, place, width, own, shape, layout = filtered.layout](
-                              gl::Program& program, gl::Context& context) {
+    shading.setUniforms = [borders, place, own, shape, layout = filtered.layout](gl::Program& program,
+                                                                                 gl::Context& context) {
       program.setArray(context, "u_slices", borders.data(), static_cast<int>(borders.size()));
       program.set(context, "u_slicePlace", place);
-      program.set(context, "u_sliceWidth", width);
       program.set(context, "u_sliceOwn", own);
       program.set(context, "u_occlusionLayout", layout);
       program.set(context, "u_kernelShape", shape);

@@ -30,7 +30,7 @@ std::uint64_t keyOf(std::uint64_t seed, double value) {
 
 std::uint64_t spaceKey(std::uint64_t seed, const SliceSpace& space) {
   seed = planner::combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
-  seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.width0);
+  seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.sideScale);
   for (const Slice& slice : space.slices) seed = keyOf(keyOf(seed, slice.casterLow), slice.high);
   return seed;
 }

@@ -156,8 +156,9 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     // On plane s: q = qNear + s (qFar - qNear), z = 1/q - offset, ratio = z q = 1 - offset q.
     space.ratio0 = 1.0 - offset * qNear;
     space.ratio1 = -offset * (qFar - qNear);
-    space.width0 = side * qNear;
-    space.width1 = side * (qFar - qNear);
+    // q(s) - q(own) ratio(s) / (z q(own)), in which 1 - offset q = z q.
+    space.sideScale = side * (qNear - qFar);
+    space.widestTexels = side * qNear;
     clipFromLight[0][0] = 2.0 / extent.x;
     clipFromLight[1][1] = 2.0 / extent.y;
     clipFromLight[2] = glm::dvec4(2.0 * space.center - 1.0, 2.0 * scale * qNear - 1.0, 1.0);
@@ -174,19 +175,16 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     space.divisorConstant = unit;
     space.ratio0 = near;
     space.ratio1 = far - near;
-    space.width0 = side;
-    space.width1 = 0.0;
+    space.sideScale = side * (far - near);
+    space.widestTexels = side;
     clipFromLight[0][0] = 2.0 / extent.x;
     clipFromLight[1][1] = 2.0 / extent.y;
     clipFromLight[2][2] = 2.0 * scale;
     clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -2.0 * near * scale - 1.0, 1.0);
     space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
   }
-  // z is divided by `far` in the map, so 1/z of the shader is far times the true one.
-  space.widthScale = side * unit;
   space.mapFromWorld = mapFromLight * fit.lightFromWorld;
   space.clipFromWorld = clipFromLight * fit.lightFromWorld;
-  space.widestTexels = space.width0;
 
   std::vector<double> borders, pointSlices;
   for (int k = 0; k <= options.slices; ++k) {

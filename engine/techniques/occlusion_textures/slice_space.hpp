@@ -56,8 +56,10 @@ struct SliceSpace {
   glm::dvec2 center{0.5};
   double divisorScale = 1.0, divisorConstant = 0.0;
   double ratio0 = 1.0, ratio1 = 0.0;  ///< ratio(s) = ratio0 + s ratio1
-  /// Longer side of the light's frustum on plane s, texels: width0 + s width1 - widthScale ratio(s) / z.
-  double width0 = 0.0, width1 = 0.0, widthScale = 0.0;
+  /// Longer side of the light's frustum on plane s, texels, of a receiver at `own`:
+  /// sideScale (own - s) (divisorScale + divisorConstant / z). A difference of slice units, not of distances:
+  /// seen from a sun, all distances are the same number.
+  double sideScale = 0.0;
   glm::dvec2 shape{1.0};        ///< its two sides, the longer one 1
   double offsetDistance = 0.0;  ///< of the centre of projection behind the light, world units
   double widestTexels = 0.0;    ///< largest side on any slice, for receivers however far

@@ -12,6 +12,12 @@ namespace halfshadow::techniques {
 namespace {
 /// Offsets are stored as whole bytes about 128.
 constexpr double kLongestOffset = 125.0;
+/// Tiles of the box atlas: the largest boxes are as wide as kernels that reach the longest offset.
+constexpr int kMostTiles = 7;
+/// Beyond this the map would be some texels; penumbrae are cut.
+constexpr double kLargestShrink = 16.0;
+/// Longer over shorter side of a kernel in texels that are shaped like the light as far as they go.
+constexpr double kLongestKernel = 2.5;
 
 glm::vec4 layoutUniform(const SignedWidthMap& map) {
   return {map.width, map.height, 1.0 / map.width, 1.0 / map.height};
@@ -34,10 +40,31 @@ glm::vec4 casterRange(const MapSpace& space) {
           range};
 }
 
-/// The widest kernel of a receiver inside the map, in texels of the width map.
+/// The light's side in texels of the width map per unit of depth difference. A strip of a light is as wide as
+/// squares of the map can tell from a line: its narrow penumbrae are then a few texels of the depth map.
+glm::dvec2 kernelPerDepth(const MapSpace& space, const glm::dvec2& depthTexelsPerTexel) {
+  const glm::dvec2 kernel = space.kernelTexelsPerDepth / depthTexelsPerTexel;
+  return glm::max(kernel, std::max(kernel.x, kernel.y) / kLongestKernel);
+}
+
+/// The widest kernel of a receiver inside the map, in texels of the width map, for casters at a depth.
+glm::dvec2 widestKernel(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map,
+                        double casterDepth) {
+  const double farthest =
+      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+  return kernelPerDepth(space, map.depthTexelsPerTexel) * (farthest - casterDepth);
+}
 glm::dvec2 widestKernel(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map) {
-  const glm::dvec2 kernel = space.kernelTexelsPerDepth;
-  return widestPenumbraTexels(frame, space) / std::max(kernel.x, kernel.y) * kernel / map.depthTexelsPerTexel;
+  return widestKernel(frame, space, map, space.nearestCasterDepth);
+}
+
+/// Boxes up to the widest penumbra.
+int boxTiles(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map) {
+  const glm::dvec2 kernel = widestKernel(frame, space, map);
+  const double widest = std::sqrt(kernel.x * kernel.y);
+  int tiles = 1;
+  while (tiles < kMostTiles && (2 << tiles) < widest) ++tiles;
+  return tiles;
 }
 
 std::uint64_t shapeKey(const SignedWidthMap& map) {
@@ -108,14 +135,10 @@ glm::dvec2 depthTexelsPerWidthTexel(const MapSpace& space) {
   return shape * std::max(longest, 1.0 / std::min(shape.x, shape.y));
 }
 
-/// Boxes up to the widest penumbra.
 static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const LightDepth& depth,
                                             const SignedWidthMap& map) {
   const std::string prefix = "light " + std::to_string(frame.lightIndex) + " width ";
-  WidthBoxes boxes;
-  const glm::dvec2 kernel = widestKernel(frame, depth.space, map);
-  const double widest = std::sqrt(kernel.x * kernel.y);
-  while (boxes.tiles < 6 && (2 << boxes.tiles) < widest) ++boxes.tiles;
+  WidthBoxes boxes{.tiles = boxTiles(frame, depth.space, map)};
   const int rows = (boxes.tiles + 1) / 2;
   std::vector<framegraph::ResourceId> levels = {map.coverage};
   for (int level = 0; level <= boxes.tiles; ++level) {
@@ -174,9 +197,14 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   SignedWidthMap map;
   map.depthTexelsPerTexel = depthTexelsPerWidthTexel(space);
   // Distances reach kLongestOffset texels: the widest kernel should fit. Where a caster stands next to the
-  // light that would cost all others their resolution, so its penumbra is cut instead.
-  map.depthTexelsPerTexel *= std::clamp(
-      (0.5 * glm::length(widestKernel(frame, space, map)) + 1.0) / (kLongestOffset - 1.0), 1.0, 2.0);
+  // light that would cost all others their resolution, so its penumbra is cut, but for lights so large that
+  // casters half-way to the farthest have such penumbrae too.
+  const auto texelsTooFew = [&](double casterDepth) {
+    return (0.5 * glm::length(widestKernel(frame, space, map, casterDepth)) + 1.0) / (kLongestOffset - 1.0);
+  };
+  const double halfWay = 1.0 - 2.0 * space.nearDistance / (frame.fit.nearDistance + frame.fit.farDistance);
+  map.depthTexelsPerTexel *= std::max({1.0, std::min(texelsTooFew(space.nearestCasterDepth), 2.0),
+                                       std::min(texelsTooFew(halfWay), kLargestShrink)});
   // The corner of the widest kernel; one texel more, since the map is interpolated.
   const glm::dvec2 widest = widestKernel(frame, space, map);
   const double wanted = 0.5 * glm::length(widest) + 1.0;
@@ -184,8 +212,10 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   map.reachTexels = std::min(8.0 * std::ceil(wanted / 8.0), kLongestOffset);
   map.kneeTexels = 0.25 * map.reachTexels;
   const glm::dvec2 inner = glm::ceil(glm::dvec2(space.mapSize) / map.depthTexelsPerTexel);
-  // Twice in each direction is the box atlas.
-  const double room = (0.5 * frame.capabilities.limits.textureSize - std::max(inner.x, inner.y)) / 2.0;
+  // The box atlas repeats the map in two columns.
+  const double limit = frame.capabilities.limits.textureSize;
+  const int rows = (boxTiles(frame, space, map) + 1) / 2;
+  const double room = std::min(0.5 * limit - inner.x, limit / rows - inner.y) / 2.0;
   map.margin = static_cast<int>(std::max(std::min(map.reachTexels, std::floor(room)), 0.0));
   map.width = static_cast<int>(inner.x) + 2 * map.margin;
   map.height = static_cast<int>(inner.y) + 2 * map.margin;
@@ -270,7 +300,7 @@ void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map) {
 void addSignedWidth(ReceiverShading& shading, const LightDepth& depth, const SignedWidthMap& map) {
   shading.textures.push_back({.sampler = "u_widthMap", .resource = map.map});
   const MapSpace& space = depth.space;
-  const glm::dvec2 kernel = space.kernelTexelsPerDepth / space.depthUnit / map.depthTexelsPerTexel;
+  const glm::dvec2 kernel = kernelPerDepth(space, map.depthTexelsPerTexel) / space.depthUnit;
   const glm::vec4 range(map.reachTexels, map.kneeTexels, kernel.x, kernel.y);
   const glm::vec4 casters = casterRange(space);
   // Narrower than a depth texel, a penumbra is an edge.
