@@ -7,7 +7,6 @@
 #include "receiver_inputs.glsl"
 #include "vsm_moments.glsl"
 uniform HS_HIGHP sampler2D u_moments;
-uniform HS_HIGHP vec4 u_momentRange;  // x: depth at 0, y: 1 / range, z: least variance, w: bias in moment units
 
 HS_HIGHP vec2 hs_momentsAt(HS_HIGHP vec2 texel) {
   HS_COUNT(1);
@@ -26,9 +25,10 @@ float halfshadow_visibility() {
   HS_HIGHP vec2 moments = mix(mix(hs_momentsAt(corner), hs_momentsAt(corner + vec2(1.0, 0.0)), weight.x),
                               mix(hs_momentsAt(corner + vec2(0.0, 1.0)), hs_momentsAt(corner + vec2(1.0)), weight.x), weight.y);
 #endif
-  HS_HIGHP float depth = clamp((hs_receiverValue - u_momentRange.x) * u_momentRange.y, 0.0, 1.0);
-  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
-  HS_HIGHP float beyond = depth - moments.x - u_momentRange.w - u_bias.z * slope * u_momentRange.y;
+  HS_HIGHP float distance = hs_momentDistance(hs_receiverValue);
+  // One texel changes the distance by its square times the change of depth.
+  HS_HIGHP float slope = (abs(hs_gradient.x) + abs(hs_gradient.y)) * distance * distance;
+  HS_HIGHP float beyond = hs_momentOf(distance) - moments.x - u_momentRange.w - u_bias.z * slope * u_momentRange.y;
   if (beyond <= 0.0) return 1.0;
   HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);
   return variance / (variance + beyond * beyond);

@@ -1,6 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Moments as stored.
+// Moments as stored, of distances along the light's axis rather than of depths: seen from a caster that stands beside
+// the light, all others are at almost the same depth.
+uniform HS_HIGHP vec4 u_momentRange;  // x: distance at 0, y: 1 / (distance at 1 - distance at 0), z: least variance, w: bias
+
+// In near distances, of depth 1 - near / distance.
+HS_HIGHP float hs_momentDistance(HS_HIGHP float depth) { return 1.0 / max(1.0 - depth, 1e-6); }
+HS_HIGHP float hs_momentOf(HS_HIGHP float distance) {
+  return clamp((distance - u_momentRange.x) * u_momentRange.y, 0.0, 1.0);
+}
 HS_HIGHP vec2 hs_unpackMoments(HS_HIGHP vec4 stored) {
 #ifdef HS_MOMENTS_8
   return stored.rg;

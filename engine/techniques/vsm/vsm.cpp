@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/vsm/vsm.hpp"
 
+#include <algorithm>
+
 #include "planner/frame_planner.hpp"
 #include "techniques/light_blocks/light_blocks.hpp"
 
@@ -39,12 +41,16 @@ class Vsm final : public Technique {
     if (!depth) return depth.error();
     const bool bytes = frame.settings.choice("vsm.storage") == "8";
     const MapSpace& space = depth->space;
-    // Depths beyond the casters by half their distance are clamped on both sides of the comparison.
-    const double deepest = 1.0 - space.nearDistance / (1.5 * frame.fit.farDistance);
+    // In near distances. Beyond the casters by half their distance, or beyond the farthest receiver, both
+    // sides of the comparison are clamped; no nearer than their own range again, so that what lies close
+    // behind casters is told from them.
+    const double nearest = 1.0 / (1.0 - space.nearestCasterDepth),
+                 farthest = 1.0 / (1.0 - space.farthestCasterDepth);
+    const double beyond = std::max(frame.receiverFarDistance / space.nearDistance, 2.0 * farthest - nearest);
+    const double deepest = std::min(1.5 * farthest, beyond);
     const double quantum = bytes ? 1.0 / 255.0 : 1.0 / 65535.0;
     const double knob = frame.settings.real("bias");
-    const glm::vec4 range(space.nearestCasterDepth, 1.0 / (deepest - space.nearestCasterDepth), 2.0 * quantum,
-                          knob * 1.5 * quantum);
+    const glm::vec4 range(nearest, 1.0 / (deepest - nearest), 2.0 * quantum, knob * 1.5 * quantum);
 
     std::vector<std::string> storage;
     if (bytes) storage.push_back("HS_MOMENTS_8");
