@@ -49,7 +49,13 @@ uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 #endif
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels of the width map per depth texel, z: margin in texels
 uniform HS_HIGHP vec4 u_widthRange;   // x: largest distance, y: knee of the storage, zw: kernel in texels per unit of depth
-uniform HS_HIGHP vec4 u_casterDepth;  // x: depth of the nearest caster, y: depth range of casters, z: 1 / depth texels per texel
+// x: distance of the nearest caster in near distances, y: range of casters' distances, z: 1 / depth texels per texel,
+// w: depth units
+uniform HS_HIGHP vec4 u_casterDepth;
+
+HS_HIGHP float hs_casterDepth(HS_HIGHP float normalisedDistance) {
+  return u_casterDepth.w - u_casterDepth.w / (u_casterDepth.x + u_casterDepth.y * normalisedDistance);
+}
 
 // Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a
 // signed distance, whose normal has the absolute components `normal`.
@@ -97,15 +103,15 @@ float hs_visibility() {
     signedTexels = -length(edge);
     normal = edge / -signedTexels;
   }
-  HS_HIGHP float gap = hs_receiverValue - u_casterDepth.x - u_casterDepth.y * stored.b;
+  HS_HIGHP float gap = hs_receiverValue - hs_casterDepth(stored.b);
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
-  HS_HIGHP float margin = u_bias.x + u_bias.z * slope + u_casterDepth.y * (1.0 / 255.0);
+  HS_HIGHP float ahead = hs_receiverValue - u_bias.x - u_bias.z * slope;
 #if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
   // The receiver may be the caster itself. A host's program serves all of its receivers, casting or not.
-  bool exact = hs_receiverValue <= u_casterDepth.x + u_casterDepth.y * stored.a + margin;
+  bool exact = ahead <= hs_casterDepth(stored.a + 1.0 / 255.0);
 #else
   // Occupied, but perhaps by casters behind the receiver.
-  bool exact = signedTexels > 0.0 && gap <= margin;
+  bool exact = signedTexels > 0.0 && ahead <= hs_casterDepth(stored.b + 1.0 / 255.0);
 #endif
   if (exact) {
     // Only the exact depth knows, and what it finds lit is.
@@ -128,7 +134,7 @@ float hs_visibility() {
   // The silhouette nearest by and the casters of the whole kernel: two opinions on the occluder's depth, of equal
   // weight unless the kernel is too empty for its mean to have any bits.
   HS_HIGHP vec2 mean = mix(boxes.rg, boxes.ba, upper);
-  HS_HIGHP float meanGap = hs_receiverValue - u_casterDepth.x - u_casterDepth.y * (mean.y / max(mean.x, 1e-3));
+  HS_HIGHP float meanGap = hs_receiverValue - hs_casterDepth(mean.y / max(mean.x, 1e-3));
   gap = mix(gap, meanGap, 0.5 * min(8.0 * mean.x, 1.0));
   widths = u_widthRange.zw * max(gap, 0.0);
   upper = clamp(0.5 * log2(max(widths.x * widths.y - 2.0, 4.0)) - lower, 0.0, 1.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Occupied share, and that share times normalised depth, over square boxes of the width map whose sides are powers
+// Occupied share, and that share times normalised distance, over square boxes of the width map whose sides are powers
 // of two: level l and level l + 1 in one fetch, from an atlas of tiles in columns of two.
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 uniform HS_HIGHP sampler2D u_boxes;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Share of a rectangle of depth texels that holds a caster, that share times the casters' mean normalised depth,
-// and their largest depth, rounded up: HS_SAMPLES_S x HS_SAMPLES_T fetches. The image is wider than the depth map by
+// Share of a rectangle of depth texels that holds a caster, that share times the casters' mean normalised
+// distance, and their largest, rounded up: HS_SAMPLES_S x HS_SAMPLES_T fetches. The image is wider than the depth map by
 // a margin, in which penumbrae of casters at the border lie.
 #include "depth_storage.glsl"
 varying HS_HIGHP vec2 v_uv;
@@ -9,7 +9,7 @@ uniform HS_HIGHP sampler2D u_depthMap;
 uniform HS_HIGHP vec4 u_sourceSize;   // x: depth texels per side, y: 1 / x
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels per depth texel, z: margin in texels
-uniform HS_HIGHP vec4 u_casterRange;  // x: depth of the nearest caster, y: 1 / depth range, z: depth of empty texels less a margin
+uniform HS_HIGHP vec4 u_casterRange;  // x: distance of the nearest caster, y: 1 / range of distances, z: depth of empty texels less a margin, w: 1 / depth units
 
 void main() {
   const HS_HIGHP vec2 counts = vec2(float(HS_SAMPLES_S), float(HS_SAMPLES_T));
@@ -25,7 +25,9 @@ void main() {
     HS_HIGHP vec2 inside = step(vec2(0.0), texel) * step(texel, vec2(u_sourceSize.x));
     HS_HIGHP float depth = hs_depthValue(texture2D(u_depthMap, uv));
     HS_HIGHP float occupied = step(depth, u_casterRange.z) * inside.x * inside.y;
-    HS_HIGHP float normalised = clamp((depth - u_casterRange.x) * u_casterRange.y, 0.0, 1.0);
+    // Distances, in near distances: of 255 steps of depth a caster beside the light would leave the others one or two.
+    HS_HIGHP float distance = 1.0 / max(1.0 - depth * u_casterRange.w, 1e-4);
+    HS_HIGHP float normalised = clamp((distance - u_casterRange.x) * u_casterRange.y, 0.0, 1.0);
     sum += occupied * vec2(1.0, normalised);
     largest = max(largest, occupied * normalised);
     offset.x += 1.0;

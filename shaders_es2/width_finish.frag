@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // What receivers read: signed distance to the nearest silhouette (inside positive), the direction to it, the
-// depth of the caster there, and the largest caster depth around.
+// normalised distance of the caster there from the light, and the largest around.
 #include "tap_count.glsl"
 #include "width_offset.glsl"
 #include "width_boxes.glsl"

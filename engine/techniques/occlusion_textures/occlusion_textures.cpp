@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "techniques/core/caster_spread.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
 
 namespace halfshadow::techniques {
@@ -15,6 +16,10 @@ constexpr int kMostBoxes = 8;
 /// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
 /// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
 constexpr double kOwnSurfaceBias = 0.02;
+
+/// Farthest over nearest caster: beyond, slices are thick against what lies in them, and casters beside the
+/// light leave the others too little of the map.
+constexpr double kWidestSpread = 8.0;
 
 constexpr gl::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
                                         "u_occlusion4", "u_occlusion5", "u_occlusion6", "u_occlusion7"};
@@ -134,6 +139,10 @@ class OcclusionTextures final : public Technique {
             choice("leak_fix", "off", {"off", "on"},
                    "paper: also project each slice on the next one, which closes the gaps of thin occluders; "
                    "tuned has no such gaps")};
+  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+    if (readChoices(frame.settings).paper()) return std::nullopt;
+    return sampledWhereCastersSpread(frame, kWidestSpread);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     const Choices choices = readChoices(frame.settings);

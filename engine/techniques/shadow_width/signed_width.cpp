@@ -32,12 +32,20 @@ glm::vec4 boxUniform(const SignedWidthMap& map) {
   return {0.5 / map.width, 1.0 / (rows * map.height), map.boxes.tiles, 0};
 }
 
-/// Depths of casters to 0 … 1, and the depth between them and empty texels.
+/// Distances of casters in near distances: the nearest, and their range.
+struct CasterDistances {
+  double nearest = 1.0, range = 1.0;
+};
+CasterDistances casterDistances(const MapSpace& space) {
+  const double nearest = 1.0 / (1.0 - space.nearestCasterDepth);
+  return {nearest, std::max(1.0 / (1.0 - space.farthestCasterDepth) - nearest, 1e-6)};
+}
+
+/// Distances of casters to 0 … 1, the depth between them and empty texels, and the depth of a whole range.
 glm::vec4 casterRange(const MapSpace& space) {
-  const double unit = space.depthUnit;
-  const double range = std::max((space.farthestCasterDepth - space.nearestCasterDepth) * unit, 1e-6);
-  return {space.nearestCasterDepth * unit, 1.0 / range, 0.5 * (space.farthestCasterDepth + 1.0) * unit,
-          range};
+  const CasterDistances casters = casterDistances(space);
+  return {casters.nearest, 1.0 / casters.range, 0.5 * (space.farthestCasterDepth + 1.0) * space.depthUnit,
+          1.0 / space.depthUnit};
 }
 
 /// The light's side in texels of the width map per unit of depth difference. A strip of a light is as wide as
@@ -302,10 +310,11 @@ void addSignedWidth(ReceiverShading& shading, const LightDepth& depth, const Sig
   const MapSpace& space = depth.space;
   const glm::dvec2 kernel = kernelPerDepth(space, map.depthTexelsPerTexel) / space.depthUnit;
   const glm::vec4 range(map.reachTexels, map.kneeTexels, kernel.x, kernel.y);
-  const glm::vec4 casters = casterRange(space);
+  const CasterDistances casters = casterDistances(space);
   // Narrower than a depth texel, a penumbra is an edge.
-  const glm::vec4 casterDepth(casters.x, casters.w,
-                              1.0 / std::max(map.depthTexelsPerTexel.x, map.depthTexelsPerTexel.y), 0);
+  const glm::vec4 casterDepth(casters.nearest, casters.range,
+                              1.0 / std::max(map.depthTexelsPerTexel.x, map.depthTexelsPerTexel.y),
+                              space.depthUnit);
   shading.setUniforms = [layout = layoutUniform(map), place = placeUniform(map), range, casterDepth,
                          inner = std::move(shading.setUniforms)](gl::Program& program, gl::Context& context) {
     inner(program, context);

@@ -16,8 +16,8 @@ struct WidthBoxes {
 };
 
 /// Channels: red the signed distance (packed by width_distance.glsl, inside positive), green the component of
-/// the edge's normal along t, blue the normalised depth of the caster at the edge, alpha the largest
-/// normalised depth of casters within one texel.
+/// the edge's normal along t, blue the normalised distance of the caster at the edge from the light,
+/// alpha the largest of casters within one texel.
 struct SignedWidthMap {
   framegraph::ResourceId map;
   /// Along s and t; the texels' shape follows the light's, so that its kernel is a square of them.

@@ -5,10 +5,15 @@
 #include <algorithm>
 
 #include "planner/frame_planner.hpp"
+#include "techniques/core/caster_spread.hpp"
 #include "techniques/light_blocks/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
+/// Farthest over nearest caster: beyond, what stands beside the light takes so much of the map that the blur
+/// is wider than the shadows.
+constexpr double kWidestSpread = 100.0;
+
 class Vsm final : public Technique {
  public:
   const TechniqueInfo& info() const override {
@@ -35,6 +40,9 @@ class Vsm final : public Technique {
   Support support(const gl::Capabilities& capabilities) const override {
     if (capabilities.has(gl::Capability::highp)) return {};
     return {false, "highp: the variance of two moments is below what fp16 resolves; use pcf or pcss-mip"};
+  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+    return sampledWhereCastersSpread(frame, kWidestSpread);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::castersAndReceivers);
