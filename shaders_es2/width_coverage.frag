@@ -6,6 +6,10 @@
 #include "depth_storage.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_depthMap;
+#ifdef HS_LAST_RECEIVERS
+uniform HS_HIGHP sampler2D u_lastReceivers;  // depths beyond which nothing is shadowed
+uniform HS_HIGHP vec4 u_lastMargin;          // x: least depth from a caster to what it shadows
+#endif
 uniform HS_HIGHP vec4 u_sourceSize;   // x: depth texels per side, y: 1 / x
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels per depth texel, z: margin in texels
@@ -25,6 +29,9 @@ void main() {
     HS_HIGHP vec2 inside = step(vec2(0.0), texel) * step(texel, vec2(u_sourceSize.x));
     HS_HIGHP float depth = hs_depthValue(texture2D(u_depthMap, uv));
     HS_HIGHP float occupied = step(depth, u_casterRange.z) * inside.x * inside.y;
+#ifdef HS_LAST_RECEIVERS
+    occupied *= step(u_lastMargin.x, hs_depthValue(texture2D(u_lastReceivers, uv)) - depth);
+#endif
     // Distances, in near distances: of 255 steps of depth a caster beside the light would leave the others one or two.
     HS_HIGHP float distance = 1.0 / max(1.0 - depth * u_casterRange.w, 1e-4);
     HS_HIGHP float normalised = clamp((distance - u_casterRange.x) * u_casterRange.y, 0.0, 1.0);

@@ -3,9 +3,13 @@
 #include "techniques/light_depth/light_depth.hpp"
 
 #include "planner/frame_planner.hpp"
+#include "techniques/light_depth/last_receivers.hpp"
 
 namespace halfshadow::techniques {
 namespace {
+/// Clip depth over w: behind everything, and not beyond the far plane by rounding.
+constexpr double kAlmostInfinite = 1.0 - 1e-6;
+
 using framegraph::Attachment;
 using framegraph::AttachmentPoint;
 using framegraph::Format;
@@ -34,15 +38,33 @@ std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string
           {.resource = depth, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
 }
 
+bool keepsFarthest(MapContent content) {
+  return content == MapContent::castersFarthest || content == MapContent::lastReceivers;
+}
+
+const char* contentName(MapContent content) {
+  switch (content) {
+    case MapContent::casters:
+      return " depth";
+    case MapContent::castersFarthest:
+      return " farthest depth";
+    case MapContent::castersAndReceivers:
+      return " depth with receivers";
+    case MapContent::lastReceivers:
+      return " last receivers' depth";
+  }
+  return "";
+}
+
 void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, MapContent content,
                std::span<const DrawItem> items) {
-  const bool farthest = content == MapContent::castersFarthest;
+  const bool farthest = keepsFarthest(content), averted = content == MapContent::castersFarthest;
   gl::DrawState state{.depth = {.test = farthest ? gl::Compare::greater : gl::Compare::less, .write = true}};
   for (const DrawItem& item : items) {
     // The map looks along +z of a right-handed space, so windings appear turned round.
     const gl::Cull hidden = hiddenFaces(item, space.originWorld);
     const gl::Cull turned = hidden == gl::Cull::back ? gl::Cull::front : gl::Cull::back;
-    state.cull = hidden == gl::Cull::none ? hidden : farthest ? hidden : turned;
+    state.cull = hidden == gl::Cull::none ? hidden : averted ? hidden : turned;
     program.set(encoder.context(), "u_mapClipFromObject",
                 glm::mat4(space.mapClipFromWorld * item.worldFromObject));
     item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
@@ -56,17 +78,18 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   depth.storage = depthStorageFor(frame.capabilities);
   depth.space = makeMapSpace(frame.fit, depth.storage);
   const bool all = content == MapContent::castersAndReceivers;
-  const bool farthest = content == MapContent::castersFarthest;
+  const bool last = content == MapContent::lastReceivers;
   const bool keyed = frame.mapLifetime == framegraph::Lifetime::persistent;
   depth.contentKey = !keyed ? 0
                             : planner::combineKeys(all ? frame.sceneKey : frame.contentKey,
                                                    static_cast<std::uint64_t>(depth.storage) * 4 +
                                                        static_cast<std::uint64_t>(content));
-  const std::string name = "light " + std::to_string(frame.lightIndex) +
-                           (all        ? " depth with receivers"
-                            : farthest ? " farthest depth"
-                                       : " depth") +
-                           frame.mapName;
+  LastReceivers receivers;
+  if (last) {
+    receivers = lastReceivers(frame);
+    depth.contentKey = planner::combineKeys(depth.contentKey, receivers.contentKey);
+  }
+  const std::string name = "light " + std::to_string(frame.lightIndex) + contentName(content) + frame.mapName;
 
   const gl::Texture* ramp = nullptr;
   if (depth.storage == DepthStorage::packed16) {
@@ -79,12 +102,13 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
 
   framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::light};
   pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime,
-                             farthest ? 0.0f : 1.0f, depth.map);
+                             keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
   pass.contentKey = depth.contentKey;
-  std::vector<DrawItem> items(frame.casters.begin(), frame.casters.end());
+  std::vector<DrawItem> items =
+      last ? std::move(receivers.drawn) : std::vector<DrawItem>(frame.casters.begin(), frame.casters.end());
   if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
-  pass.execute = [program = *program, ramp, space = depth.space, content,
-                  items = std::move(items)](framegraph::PassContext& context) {
+  pass.execute = [program = *program, ramp, space = depth.space, content, items = std::move(items),
+                  infinite = std::move(receivers.infinite)](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
     program->set(encoder.context(), "u_nearDistance", 1.0f);
@@ -93,6 +117,12 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
       encoder.bindTextures({&binding, 1});
     }
     drawItems(encoder, *program, space, content, items);
+    if (infinite.empty()) return;
+    MapSpace flat = space;
+    for (int column = 0; column < 4; ++column)
+      flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
+    program->set(encoder.context(), "u_nearDistance", 0.0f);
+    drawItems(encoder, *program, flat, content, infinite);
   };
   frame.graph.addPass(std::move(pass));
   return depth;

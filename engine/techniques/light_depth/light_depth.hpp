@@ -40,9 +40,10 @@ struct MapSpace {
 MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage);
 
 enum class MapContent {
-  casters,             ///< all that techniques need
-  castersFarthest,     ///< back faces of casters, the farthest; empty texels are at depth 0
-  castersAndReceivers  ///< what the papers' scenes hold; receivers then shadow themselves
+  casters,              ///< all that techniques need
+  castersFarthest,      ///< back faces of casters, the farthest; empty texels are at depth 0
+  castersAndReceivers,  ///< what the papers' scenes hold; receivers then shadow themselves
+  lastReceivers  ///< the farthest light-facing receivers, see last_receivers.hpp; empty texels are at depth 0
 };
 
 struct LightDepth {

@@ -7,6 +7,7 @@
 
 #include "planner/frame_planner.hpp"
 #include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_depth/last_receivers.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -110,6 +111,7 @@ Status addStep(const LightFrame& frame, const LightDepth& depth, const SignedWid
       [program = *program, sources = std::move(step.sources), boxes = boxUniform(map),
        layout = layoutUniform(map), mapSize, casters = casterRange(depth.space), place = placeUniform(map),
        flood = glm::vec4(step.strideTexels, 0, 0, 0), box = glm::vec4(step.boxTexels, 0, 0, 0),
+       lastMargin = glm::vec4(2.0 * depth.space.quantum * depth.space.depthUnit, 0, 0, 0),
        range = glm::vec4(map.reachTexels, map.kneeTexels, 0, 0)](framegraph::PassContext& context) {
         gl::Encoder& encoder = context.encoder;
         encoder.useProgram(*program);
@@ -121,6 +123,7 @@ Status addStep(const LightFrame& frame, const LightDepth& depth, const SignedWid
         program->set(encoder.context(), "u_box", box);
         program->set(encoder.context(), "u_boxLayout", boxes);
         program->set(encoder.context(), "u_widthRange", range);
+        program->set(encoder.context(), "u_lastMargin", lastMargin);
         std::vector<gl::TextureBinding> bindings;
         for (const Source& source : sources) {
           bindings.push_back({program->samplerUnit(source.sampler), &context.texture(source.resource)});
@@ -200,7 +203,8 @@ static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const Light
   return boxes;
 }
 
-Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDepth& depth) {
+Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDepth& casters) {
+  LightDepth depth = casters;
   const MapSpace& space = depth.space;
   SignedWidthMap map;
   map.depthTexelsPerTexel = depthTexelsPerWidthTexel(space);
@@ -244,11 +248,19 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   const glm::ivec2 samples = glm::min(glm::ivec2(glm::ceil(map.depthTexelsPerTexel - 1e-6)), glm::ivec2(16));
   defines.push_back("HS_SAMPLES_S " + std::to_string(samples.x));
   defines.push_back("HS_SAMPLES_T " + std::to_string(samples.y));
+  std::vector<Source> sources = {{"u_depthMap", depth.map}};
+  if (!lastReceivers(frame).empty) {
+    auto last = declareLightDepth(frame, MapContent::lastReceivers);
+    if (!last) return last.error();
+    defines.push_back("HS_LAST_RECEIVERS");
+    sources.push_back({"u_lastReceivers", last->map});
+    depth.contentKey = planner::combineKeys(depth.contentKey, last->contentKey);
+  }
   if (Status s = addStep(frame, depth, map,
                          {.name = "width coverage",
                           .file = "width_coverage.frag",
                           .defines = defines,
-                          .sources = {{"u_depthMap", depth.map}},
+                          .sources = std::move(sources),
                           .target = coverage});
       !s) {
     return s.error();
