@@ -86,7 +86,7 @@ const std::vector<ShaderFamily>& shaderFamilies() {
        "occlusion_slices.frag",
        Depth::independent,
        Kind::pass,
-       {{}, {"HS_SLICE_DEPTH"}}},
+       {{}, {"HS_SLICE_DEPTH"}, {"HS_SLICE_DEPTH", "HS_LAST_RECEIVERS"}, {"HS_PACK_DEPTH"}}},
       {"fullscreen.vert", "occlusion_level.frag", Depth::independent, Kind::pass, {{}, {"HS_FIRST_LEVEL"}}},
       {"fullscreen.vert", "occlusion_sum.frag", Depth::independent, Kind::pass, {{}, {"HS_FIRST_STEP"}}},
       {"receiver.vert", "occlusion_textures.frag", Depth::independent, Kind::receiver, occlusionSets()},

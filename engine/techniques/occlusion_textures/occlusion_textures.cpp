@@ -145,7 +145,8 @@ class OcclusionTextures final : public Technique {
     return sampledWhereCastersSpread(frame, kWidestSpread);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
-    const Choices choices = readChoices(frame.settings);
+    Choices choices = readChoices(frame.settings);
+    choices.slicing.receiverFarDistance = frame.receiverFarDistance;
     if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};

@@ -15,6 +15,9 @@ constexpr double kLargestOffset = 16.0;
 constexpr double kMaxTangent = 8.0;
 // Longest side of the light's frustum over its shortest, in texels, that is evened out by stretching the map.
 constexpr double kLargestStretch = 4.0;
+// Depths are drawn as far as this many times the farthest receiver, so that rounding and the fit's steps cut
+// none.
+constexpr double kDepthReserve = 4.0;
 // Share of the casters' depth range left free at both ends, so that no caster lies on the border itself.
 constexpr double kDepthMargin = 1.0 / 256;
 
@@ -138,6 +141,10 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   const double longest = std::max(lightInMap.x, lightInMap.y);
   if (longest > 0.0) space.shape = lightInMap / longest;
 
+  const double depthSlices =
+      kDepthReserve *
+      std::max(1.0, options.receiverFarDistance > far ? sliceOf(options.receiverFarDistance) : 0.0);
+
   // Rows of (x, y, n, z), all divided by the farthest distance.
   const double unit = 1.0 / far;
   glm::dmat4 mapFromLight(0.0);
@@ -159,11 +166,14 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     // q(s) - q(own) ratio(s) / (z q(own)), in which 1 - offset q = z q.
     space.sideScale = side * (qNear - qFar);
     space.widestTexels = side * qNear;
+    // Not beyond what is infinitely far away, where q = 0.
+    space.depthSlices = std::min(depthSlices, scale * qNear);
+    const double depthScale = 2.0 * scale / space.depthSlices;
     clipFromLight[0][0] = 2.0 / extent.x;
     clipFromLight[1][1] = 2.0 / extent.y;
-    clipFromLight[2] = glm::dvec4(2.0 * space.center - 1.0, 2.0 * scale * qNear - 1.0, 1.0);
-    clipFromLight[3] = glm::dvec4((2.0 * space.center - 1.0) * offset,
-                                  2.0 * scale * (qNear * offset - 1.0) - offset, offset);
+    clipFromLight[2] = glm::dvec4(2.0 * space.center - 1.0, depthScale * qNear - 1.0, 1.0);
+    clipFromLight[3] =
+        glm::dvec4((2.0 * space.center - 1.0) * offset, depthScale * (qNear * offset - 1.0) - offset, offset);
     // Homogeneous coordinates near 1: they cross the rasteriser as mediump varyings.
     clipFromLight *= unit;
     space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld) * glm::dvec4(0, 0, -offset, 1));
@@ -177,10 +187,12 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     space.ratio1 = far - near;
     space.sideScale = side * (far - near);
     space.widestTexels = side;
+    space.depthSlices = depthSlices;
+    const double depthScale = 2.0 * scale / space.depthSlices;
     clipFromLight[0][0] = 2.0 / extent.x;
     clipFromLight[1][1] = 2.0 / extent.y;
-    clipFromLight[2][2] = 2.0 * scale;
-    clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -2.0 * near * scale - 1.0, 1.0);
+    clipFromLight[2][2] = depthScale;
+    clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -near * depthScale - 1.0, 1.0);
     space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
   }
   space.mapFromWorld = mapFromLight * fit.lightFromWorld;

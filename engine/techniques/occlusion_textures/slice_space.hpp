@@ -32,6 +32,7 @@ struct SliceOptions {
   SliceCenter center = SliceCenter::light;
   /// Also keep the slice behind an occupied one, which casters are projected on to close leaks.
   SliceSuccessors successors = SliceSuccessors::dropped;
+  double receiverFarDistance = 0.0;  ///< of the farthest receiver below the map, 0 = none
   bool operator==(const SliceOptions&) const = default;
 };
 
@@ -51,7 +52,8 @@ struct SliceSpace {
   /// the line to the light's centre meets plane s; n / (z·divisorScale + divisorConstant) is the position's
   /// own s. All four are scaled so that z = 1 at the farthest caster.
   glm::dmat4 mapFromWorld{1.0};
-  glm::dmat4 clipFromWorld{1.0};  ///< of the slicing passes; depth grows with s
+  glm::dmat4 clipFromWorld{1.0};  ///< of the slicing passes; depth 0 … 1 is s from 0 to depthSlices
+  double depthSlices = 1.0;       ///< far enough for receivers behind all casters
   glm::dvec3 originWorld{0.0};    ///< centre of projection (orthographic: the light's centre)
   glm::dvec2 center{0.5};
   double divisorScale = 1.0, divisorConstant = 0.0;
