@@ -37,6 +37,22 @@ uniform HS_HIGHP sampler2D u_occlusion7;
 HS_HIGHP vec2 hs_direction;
 HS_HIGHP float hs_own;
 HS_HIGHP float hs_sidePerSlice;
+// May the receiver's own surface be in the slices? Else all that is not clearly behind it shadows it, up to where
+// they touch.
+bool hs_ownInSlices = false;
+#ifdef HS_LAST_RECEIVERS
+uniform HS_HIGHP sampler2D u_lastReceivers;
+uniform HS_HIGHP vec4 u_lastRange;  // x: slice units of depth 1, y: slice units that a last receiver is off by
+
+// Is this surface the last one here, and so in no slice? Seen along the line to the centre of projection.
+bool hs_isLast() {
+  HS_COUNT(1);
+  HS_HIGHP vec2 place = u_slicePlace.xy + hs_direction * (u_slicePlace.z + hs_own * u_slicePlace.w);
+  HS_HIGHP vec3 bytes = floor(texture2D(u_lastReceivers, place).rgb * 255.0 + 0.5);
+  HS_HIGHP float last = dot(bytes, vec3(65536.0, 256.0, 1.0)) * (u_lastRange.x / 16777215.0);
+  return hs_own > last - u_lastRange.y;
+}
+#endif
 float hs_visible = 1.0;
 
 // Where the light's frustum meets plane s, in texels: its middle and its side.
@@ -57,7 +73,7 @@ void hs_combine(float covered) {
 
 #ifdef HS_SLICE_DEPTH
 HS_HIGHP float hs_meanPlane(vec2 covered, HS_HIGHP vec4 slice) {
-  return min(mix(slice.x, slice.y, clamp(covered.y / max(covered.x, 1.0 / 255.0), 0.0, 1.0)), hs_own);
+  return mix(slice.x, slice.y, clamp(covered.y / max(covered.x, 1.0 / 255.0), 0.0, 1.0));
 }
 // First over the slice's middle plane; then again over the plane where the occluders are found to lie.
 void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) {
@@ -65,10 +81,11 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) 
     HS_HIGHP float plane = min(0.5 * (slice.x + slice.y), hs_own);
     vec2 covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
     if (covered.x > 0.5 / 255.0) {
-      plane = hs_meanPlane(covered, slice);
+      plane = min(hs_meanPlane(covered, slice), hs_own);
       covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
-      plane = hs_meanPlane(covered, slice);
-      hs_combine(covered.x * clamp((hs_own - plane) * slice.z / slice.w - 1.0, 0.0, 1.0));
+      HS_HIGHP float before = (hs_own - hs_meanPlane(covered, slice)) * slice.z;
+      // A step of the mean depth is 1/255.
+      hs_combine(covered.x * clamp(hs_ownInSlices ? before / slice.w - 1.0 : 128.0 * before + 1.0, 0.0, 1.0));
     }
   }
 }
@@ -91,6 +108,12 @@ float halfshadow_visibility() {
   hs_direction = v_map.xy * inverseDistance;
   hs_own = v_map.z / divisor;
   hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  hs_ownInSlices = true;
+#ifdef HS_LAST_RECEIVERS
+  hs_ownInSlices = !hs_isLast();
+#endif
+#endif
 #ifdef HS_CONCENTRIC
   // Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
   // beyond the map see the whole light without a fetch.

@@ -40,6 +40,8 @@ std::vector<Defines> occlusionSets() {
   }
   sets.push_back({"HS_SLOTS 4", "HS_TEXTURES 2", "HS_BOXES 1", "HS_FILTER_SAT", "HS_COMBINE_SUM",
                   "HS_SLICE_DEPTH", "HS_SAT_SMOOTH"});
+  sets.push_back({"HS_SLOTS 4", "HS_TEXTURES 2", "HS_BOXES 1", "HS_FILTER_NBUFFER", "HS_COMBINE_SUM",
+                  "HS_SLICE_DEPTH", "HS_CONCENTRIC", "HS_CASTING_RECEIVER", "HS_LAST_RECEIVERS"});
   sets.push_back({"HS_SLOTS 14", "HS_TEXTURES 7", "HS_BOXES 8", "HS_FILTER_NBUFFER", "HS_COMBINE_MAX",
                   "HS_SLICE_DEPTH"});
   return sets;

@@ -205,6 +205,11 @@ class OcclusionTextures final : public Technique {
                                                     : "HS_COMBINE_SUM"};
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
+      shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+      if (slices.lastReceivers) {
+        shading.defines.push_back("HS_LAST_RECEIVERS");
+        shading.textures.push_back({.sampler = "u_lastReceivers", .resource = *slices.lastReceivers});
+      }
       if (choices.filter == SliceFilter::summedArea) shading.defines.push_back("HS_SAT_SMOOTH");
     }
     if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
@@ -221,13 +226,15 @@ class OcclusionTextures final : public Technique {
     const glm::vec4 place(space.center, space.ratio0, space.ratio1);
     const glm::vec4 own(space.divisorScale, space.divisorConstant, space.sideScale, 0);
     const glm::vec4 shape(space.shape, std::max(shorter, 1.0 / boxes), 0);
-    shading.setUniforms = [borders, place, own, shape, layout = filtered.layout](gl::Program& program,
-                                                                                 gl::Context& context) {
+    const glm::vec4 last(space.depthSlices, 0.5 * kOwnSurfaceBias, 0, 0);
+    shading.setUniforms = [borders, place, own, shape, last, layout = filtered.layout](gl::Program& program,
+                                                                                       gl::Context& context) {
       program.setArray(context, "u_slices", borders.data(), static_cast<int>(borders.size()));
       program.set(context, "u_slicePlace", place);
       program.set(context, "u_sliceOwn", own);
       program.set(context, "u_occlusionLayout", layout);
       program.set(context, "u_kernelShape", shape);
+      program.set(context, "u_lastRange", last);
     };
     return shading;
   }

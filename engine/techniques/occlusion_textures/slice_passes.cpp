@@ -134,6 +134,7 @@ Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& s
     last = *declared;
     if (last) {
       defines.push_back("HS_LAST_RECEIVERS");
+      result.lastReceivers = last->map;
       result.contentKey = planner::combineKeys(result.contentKey, last->contentKey);
     }
   }

@@ -4,6 +4,7 @@
 /// Passes that make occlusion textures: slicing the casters, and the three prefilters.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,8 @@ enum class SliceFilter { mipmap, nbuffer, summedArea };
 struct SliceTextures {
   std::vector<framegraph::ResourceId> textures;
   int slicesPerTexture = 4;
+  /// Depth of the last receivers, packed in three bytes, 1 = space.depthSlices; where casters are among them.
+  std::optional<framegraph::ResourceId> lastReceivers;
   std::uint64_t contentKey = 0;
 };
 /// One geometry pass per texture; nearest faces are rasterised twice as fine and averaged.

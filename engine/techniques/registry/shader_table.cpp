@@ -72,7 +72,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       receiver("occlusion_textures.frag",
                {{"HS_SLOTS", "HS_TEXTURES", "HS_BOXES", "HS_FILTER_NBUFFER", "HS_FILTER_MIPMAP",
                  "HS_FILTER_SAT", "HS_COMBINE_SUM", "HS_COMBINE_PRODUCT", "HS_COMBINE_MAX", "HS_SLICE_DEPTH",
-                 "HS_CONCENTRIC", "HS_SAT_SMOOTH"}}),
+                 "HS_CONCENTRIC", "HS_SAT_SMOOTH", "HS_CASTING_RECEIVER", "HS_LAST_RECEIVERS"}}),
       receiver("pcf.frag", {kDepth, kMapReceiver, kKernel}),
       receiver("pcf_masked.frag",
                {kDepth, kMapReceiver, kKernel, kTwoDraws, {"HS_MASK_EDGES", "HS_SKIP_LOOP"}}),
