@@ -20,6 +20,8 @@ constexpr double kLargestStretch = 4.0;
 constexpr double kDepthReserve = 4.0;
 // Share of the casters' depth range left free at both ends, so that no caster lies on the border itself.
 constexpr double kDepthMargin = 1.0 / 256;
+// Of the casters' size, for those that are flat; of distances.
+constexpr double kLeastThickness = 1e-4, kRounding = 1e-13;
 
 struct Interval {
   double low = std::numeric_limits<double>::infinity();
@@ -83,11 +85,12 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   const bool perspective = options.projection == SliceProjection::perspective;
   std::vector<glm::dvec3> points;
   points.reserve(casterPointsWorld.size());
-  Interval depth;
+  Interval depth, lateral[2];
   for (const glm::dvec3& world : casterPointsWorld) {
     glm::dvec3 p = glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0));
     p.z = std::max(p.z, fit.nearDistance);
     depth.include(p.z);
+    for (int axis = 0; axis < 2; ++axis) lateral[axis].include(p[axis]);
     points.push_back(p);
   }
   if (fit.empty || points.empty() || !(depth.high > 0.0)) {
@@ -100,8 +103,11 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
       perspective && options.center == SliceCenter::behind ? pyramidOffset(fit, points) : 0.0;
   space.offsetDistance = offset;
 
-  // Flat casters parallel to the light still get slices of some thickness.
-  const double margin = std::max(depth.extent() * kDepthMargin, 1e-6 * depth.high);
+  // Flat casters parallel to the light still get slices of some thickness: a share of their own size, and no
+  // less than double precision holds at their distance.
+  const double size = std::max({depth.extent(), lateral[0].extent(), lateral[1].extent()});
+  const double margin =
+      std::max({depth.extent() * kDepthMargin, size * kLeastThickness, depth.high * kRounding});
   const double near = std::max(depth.low - margin, 0.5 * depth.low), far = depth.high + margin;
   // Reciprocal depth at both ends as seen from the centre of projection.
   const double qNear = 1.0 / (near + offset), qFar = 1.0 / (far + offset);
@@ -119,7 +125,8 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
       return Error{ErrorCode::invalidArgument,
                    "all casters lie more than 82 degrees off the light's axis; turn the light towards them"};
     }
-    const double least = 1e-4 * (perspective ? 1.0 : far);
+    // Casters seen edge-on, or as a point.
+    const double least = std::max(size * kLeastThickness, depth.high * kRounding) / (perspective ? far : 1.0);
     const double usable = options.mapSize - 2.0 * options.borderTexels;
     sides[axis].grow(std::max(sides[axis].extent(), least) * options.mapSize / usable);
   }
