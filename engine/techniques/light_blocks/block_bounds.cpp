@@ -17,7 +17,7 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*filter.program);
     const float size = static_cast<float>(filter.sourceSize);
-    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, 0, 0));
+    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, filter.targetSize, 0));
     if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
     const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler),
                                      &context.texture(filter.source)};
@@ -25,6 +25,10 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     encoder.drawFullscreen({});
   };
   graph.addPass(std::move(pass));
+}
+
+std::vector<std::string> dilationDefines(int reachBlocks, int blockTexels) {
+  return {"HS_REACH " + std::to_string(reachBlocks), "HS_CELL " + std::to_string(blockTexels)};
 }
 
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
@@ -60,6 +64,7 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
                                 .source = source,
                                 .target = target,
                                 .sourceSize = size,
+                                .targetSize = targetSize,
                                 .contentKey = key,
                                 .sampler = "u_source"});
     source = target;
@@ -68,7 +73,7 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
     fromDepth = false;
   }
   auto program =
-      frame.programs.get({"fullscreen.vert", "block_dilate.frag", {"HS_REACH " + std::to_string(reach)}});
+      frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(reach, 1)});
   if (!program) return program.error();
   const std::string name = prefix + "dilated";
   bounds.map = frame.graph.addResource(
@@ -94,22 +99,6 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
     inner(program, context);
     program.set(context, "u_mask", mask);
   };
-}
-
-Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
-  const double widest = widestPenumbraTexels(frame, depth.space);
-  auto bounds = declareBlockBounds(frame, depth, std::min(0.5 * widest + 1.0, 0.5 * depth.space.mapSize));
-  if (!bounds) return bounds.error();
-  addBlockMask(shading, *bounds);
-  shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
-  return {};
-}
-
-double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
-  const double farthest =
-      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
-  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
-         (farthest - space.nearestCasterDepth);
 }
 
 }  // namespace halfshadow::techniques

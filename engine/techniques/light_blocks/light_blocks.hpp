@@ -24,9 +24,22 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds);
 /// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
 double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space);
 
-/// For filters as wide as the penumbra: a mask that covers the widest one, so that one fetch finds the lit
-/// and the umbra receivers, and the way of skipping that goes with it.
-Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
+/// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach that
+/// the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
+struct PenumbraBounds {
+  framegraph::ResourceId atlas;
+  int blockTexels = 8;  ///< side of a block of the finest level
+  int blocks = 2;       ///< per side of the finest level, a power of two
+  int lastLevel = 0;    ///< of two blocks per side
+};
+Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const LightDepth& depth);
+/// Adds bounds and penumbra scale to a receiver program that includes penumbra_bounds.glsl, and the way of
+/// skipping that goes with them: they find the lit and the umbra receivers.
+Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
+
+/// Defines of block_dilate.frag: bounds of blocks of `blockTexels` source texels a side and of their
+/// neighbours up to `reachBlocks` away.
+std::vector<std::string> dilationDefines(int reachBlocks, int blockTexels);
 
 /// Occupied share and share times normalised depth, all mip levels in one atlas.
 struct BlockerPyramid {
@@ -51,6 +64,7 @@ struct FilterPass {
   gl::Program* program = nullptr;
   framegraph::ResourceId source, target;
   int sourceSize = 0;
+  int targetSize = 0;  ///< for shaders that ask which of its texels they write
   std::uint64_t contentKey = 0;
   gl::UniformKey sampler;
   std::function<void(gl::Program&, gl::Context&)> setUniforms;

@@ -29,7 +29,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
   return {
       {"light_depth.vert", "light_depth.frag", kDepth},
       {"fullscreen.vert", "block_bounds.frag", joined({kDepth, {"HS_FACTOR", "HS_FROM_DEPTH"}})},
-      {"fullscreen.vert", "block_dilate.frag", {"HS_REACH"}},
+      {"fullscreen.vert", "block_dilate.frag", {"HS_REACH", "HS_CELL"}},
       {"fullscreen.vert", "occupancy.frag", kDepth},
       {"fullscreen.vert", "pyramid_copy.frag", {}},
       {"fullscreen.vert", "edge_mask.frag", joined({kDepth, {"HS_LAPLACIAN9"}})},
