@@ -9,6 +9,7 @@
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
 #include "penumbra_bounds.glsl"
+#include "occupancy_storage.glsl"
 #include "blocker_pyramid.glsl"
 #ifdef HS_CASTING_RECEIVER
 #include "blocker_search.glsl"
@@ -26,9 +27,11 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   if (found.x <= 0.0) return vec2(-1.0);
   HS_HIGHP float width = widest * found.y;
 #else
-  HS_HIGHP vec2 around = hs_occupancy(hs_texel, widest * hs_widestGap);
-  if (around.x <= 0.5 / 255.0) return vec2(-1.0);
-  HS_HIGHP float width = widest * max(hs_receiverValue - hs_meanBlockerDepth(around), 0.0);
+  HS_HIGHP vec2 around = hs_blockersNear(widest * hs_widestGap);
+  if (around.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float width = widest * around.y / around.x;
+  around = hs_blockersNear(max(width, 1.0) * 1.25);
+  if (around.x > 0.0) width = widest * around.y / around.x;
 #endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
   HS_HIGHP float third = floor(3.0 * (band + 0.5) / (u_bands.z + 1.0));

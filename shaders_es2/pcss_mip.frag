@@ -8,6 +8,7 @@
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
 #include "penumbra_bounds.glsl"
+#include "occupancy_storage.glsl"
 #include "blocker_pyramid.glsl"
 #ifdef HS_CASTING_RECEIVER
 #include "blocker_search.glsl"
@@ -21,11 +22,11 @@ HS_HIGHP vec2 hs_penumbraWidth() {
   return found.x > 0.0 ? u_penumbra.xy * found.y : vec2(-1.0);
 #else
   HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
-  HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest * hs_widestGap);
-  if (coarse.x <= 0.5 / 255.0) return vec2(-1.0);
-  HS_HIGHP float gap = max(hs_receiverValue - hs_meanBlockerDepth(coarse), 0.0);
-  HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(widest * gap, 1.0) * 1.25);
-  if (fine.x > 0.5 / 255.0) gap = max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
+  HS_HIGHP vec2 coarse = hs_blockersNear(widest * hs_widestGap);
+  if (coarse.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float gap = coarse.y / coarse.x;
+  HS_HIGHP vec2 fine = hs_blockersAround(max(widest * gap, 1.0) * 1.25);
+  if (fine.x > 0.0) gap = fine.y / fine.x;
   return u_penumbra.xy * gap;
 #endif
 }

@@ -9,16 +9,17 @@
 uniform HS_HIGHP sampler2D u_blockMap;
 // x: blocks per side of the finest level, y: 1 / (texels per block × x), z: last level, w: slack of the reach in texels
 uniform HS_HIGHP vec4 u_bounds;
-// xy: kernel width in texels per unit of depth difference, z: depth of the nearest caster
+// xy: kernel width in texels per unit of depth difference, z: depth of the nearest caster,
+// w: 1 / reach of the finest level in texels
 uniform HS_HIGHP vec4 u_penumbra;
 
 // Depth between the fragment and the nearest caster that can block it, depth units; set by hs_maskClass().
 HS_HIGHP float hs_widestGap = 0.0;
 
-// Bytes of the bounds around the fragment, of all texels within `reach` and some more: each level holds those of
-// 3 x 3 blocks, so that blocks of the reach's size do wherever in its block the fragment lies.
+// Bytes of the bounds around the fragment, of all texels within `reach` and some more: each level holds those of a
+// block and of the four to each side.
 HS_HIGHP vec4 hs_boundsWithin(HS_HIGHP float reach) {
-  HS_HIGHP float level = clamp(ceil(log2(max(reach * u_bounds.x * u_bounds.y, 1.0))), 0.0, u_bounds.z);
+  HS_HIGHP float level = clamp(ceil(log2(max(reach * u_penumbra.w, 1.0))), 0.0, u_bounds.z);
   HS_HIGHP float side = floor(u_bounds.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 block = clamp(floor(hs_texel * (side * u_bounds.y)), 0.0, side - 1.0);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_bounds.x, u_bounds.x - 2.0 * side);

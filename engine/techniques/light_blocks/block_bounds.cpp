@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_blocks/level_atlas.hpp"
 
 namespace halfshadow::techniques {
 
@@ -27,8 +27,9 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
   graph.addPass(std::move(pass));
 }
 
-std::vector<std::string> dilationDefines(int reachBlocks, int blockTexels) {
-  return {"HS_REACH " + std::to_string(reachBlocks), "HS_CELL " + std::to_string(blockTexels)};
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels) {
+  return {"HS_REACH_S " + std::to_string(reachS), "HS_REACH_T " + std::to_string(reachT),
+          "HS_CELL " + std::to_string(cellTexels)};
 }
 
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
@@ -73,20 +74,15 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
     fromDepth = false;
   }
   auto program =
-      frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(reach, 1)});
+      frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(reach, reach, 1)});
   if (!program) return program.error();
   const std::string name = prefix + "dilated";
   bounds.map = frame.graph.addResource(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
   const std::uint64_t key =
       planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
-  addFilterPass(frame.graph, {.name = name,
-                              .program = *program,
-                              .source = source,
-                              .target = bounds.map,
-                              .sourceSize = size,
-                              .contentKey = key,
-                              .sampler = "u_source"});
+  const gl::Rect whole{0, 0, size, size};
+  addLevelPass(frame.graph, name, bounds.map, {{*program, {source, size, size, whole}, whole}}, key);
   return bounds;
 }
 

@@ -1,103 +1,85 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_blocks/level_atlas.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-/// Texels of blocks that the two source images hold, in texels of the one before.
+/// Blocks of the second source image are this much larger.
 constexpr int kReduction = 8;
 /// Blocks per side of the finest level at most: finer ones bound no penumbra more tightly that is wide enough
 /// to need a filter.
 constexpr int kMostBlocks = 128;
-
-/// Where a level lies in the atlas, as penumbra_bounds.glsl finds it: the finest at the left, the others
-/// stacked at its right.
-gl::Rect levelRect(int blocks, int level) {
-  const int side = blocks >> level;
-  if (level == 0) return {0, 0, side, side};
-  return {blocks, blocks - 2 * side, side, side};
-}
-
-struct LevelDraw {
-  gl::Program* program = nullptr;
-  framegraph::ResourceId source;
-  int sourceSize = 0;
-  gl::Rect rect;
-};
+/// Blocks that a level reaches beyond its own: the answer holds what lies 1 to 2.5 times as far as was asked.
+constexpr int kReachBlocks = 4;
 }  // namespace
 
 Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const LightDepth& depth) {
   PenumbraBounds bounds;
   const int mapSize = depth.space.mapSize;
-  // Two blocks a side at least: then 3 x 3 blocks of the coarsest level are the whole map.
   while (bounds.blockTexels * kMostBlocks < mapSize) bounds.blockTexels *= 2;
-  while (bounds.blocks * bounds.blockTexels < mapSize) bounds.blocks *= 2;
-  while ((bounds.blocks >> (bounds.lastLevel + 1)) >= 2) ++bounds.lastLevel;
+  LevelAtlas atlas;
+  while (atlas.finestSide * bounds.blockTexels < mapSize) atlas.finestSide *= 2;
+  // The coarsest level's reach is the whole map.
+  while (atlas.side(atlas.lastLevel) > kReachBlocks + 1) ++atlas.lastLevel;
+  bounds.blocks = atlas.finestSide;
+  bounds.lastLevel = atlas.lastLevel;
 
   const std::string prefix = "light " + std::to_string(frame.lightIndex) + " penumbra bounds ";
+  const auto persistent = [&](const std::string& name, int width, int height) {
+    return frame.graph.addResource({.name = prefix + name,
+                                    .width = width,
+                                    .height = height,
+                                    .lifetime = framegraph::Lifetime::persistent});
+  };
   framegraph::ResourceId source = depth.map;
   int sourceSize = mapSize, factor = bounds.blockTexels;
-  std::vector<std::pair<framegraph::ResourceId, int>> images;
-  // Blocks of the finest level, then, where there are many, blocks of eight times their side.
+  std::vector<LevelImage> images;
   for (int size = bounds.blocks; size >= 2 && images.size() < 2; size /= kReduction) {
     auto defines = depthDefines(depth.storage);
     defines.push_back("HS_FACTOR " + std::to_string(factor));
     if (images.empty()) defines.push_back("HS_FROM_DEPTH");
     auto program = frame.programs.get({"fullscreen.vert", "block_bounds.frag", defines});
     if (!program) return program.error();
-    const std::string name = prefix + std::to_string(size);
-    const auto target = frame.graph.addResource(
-        {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
-    addFilterPass(frame.graph, {.name = name,
-                                .program = *program,
-                                .source = source,
-                                .target = target,
-                                .sourceSize = sourceSize,
-                                .targetSize = size,
-                                .contentKey = planner::combineKeys(depth.contentKey,
-                                                                   static_cast<std::uint64_t>(size)),
-                                .sampler = "u_source"});
-    images.emplace_back(target, size);
+    const auto target = persistent(std::to_string(size), size, size);
+    addFilterPass(
+        frame.graph,
+        {.name = prefix + std::to_string(size),
+         .program = *program,
+         .source = source,
+         .target = target,
+         .sourceSize = sourceSize,
+         .targetSize = size,
+         .contentKey = planner::combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
+         .sampler = "u_source"});
+    images.push_back({target, size, size, {0, 0, size, size}});
     source = target;
     sourceSize = size;
     factor = kReduction;
   }
 
-  bounds.atlas = frame.graph.addResource({.name = prefix + "levels",
-                                          .width = bounds.blocks + bounds.blocks / 2,
-                                          .height = bounds.blocks,
-                                          .lifetime = framegraph::Lifetime::persistent});
-  std::vector<LevelDraw> draws;
-  framegraph::PassDesc pass{.name = prefix + "levels", .stage = framegraph::PassStage::mask};
-  for (int level = 0; level <= bounds.lastLevel; ++level) {
-    const int side = bounds.blocks >> level;
-    const auto& image = images.size() > 1 && images[1].second >= side ? images[1] : images[0];
-    auto program = frame.programs.get(
-        {"fullscreen.vert", "block_dilate.frag", dilationDefines(1, std::max(image.second / side, 1))});
+  // Along one axis, then along the other.
+  const auto rows = persistent("rows", atlas.width(), atlas.height());
+  bounds.atlas = persistent("levels", atlas.width(), atlas.height());
+  std::vector<LevelDraw> rowDraws, levelDraws;
+  auto both = frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(0, kReachBlocks, 1)});
+  if (!both) return both.error();
+  for (int level = 0; level <= atlas.lastLevel; ++level) {
+    const int side = atlas.side(level);
+    const LevelImage& image = images.back().imageWidth >= side ? images.back() : images.front();
+    auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag",
+                                       dilationDefines(kReachBlocks, 0, image.imageWidth / side)});
     if (!program) return program.error();
-    draws.push_back({*program, image.first, image.second, levelRect(bounds.blocks, level)});
+    rowDraws.push_back({*program, image, atlas.rect(level)});
+    levelDraws.push_back({*both, {rows, atlas.width(), atlas.height(), atlas.rect(level)}, atlas.rect(level)});
   }
-  for (const auto& image : images) pass.reads.push_back(image.first);
-  pass.writes = {{.resource = bounds.atlas, .initial = framegraph::InitialContent::dontCare}};
-  pass.contentKey = planner::combineKeys(depth.contentKey, 0xb0bdu);
-  pass.execute = [draws = std::move(draws)](framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    for (const LevelDraw& draw : draws) {
-      encoder.useProgram(*draw.program);
-      const float size = static_cast<float>(draw.sourceSize);
-      draw.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, 0, 0));
-      const gl::TextureBinding binding{draw.program->samplerUnit("u_source"), &context.texture(draw.source)};
-      encoder.bindTextures({&binding, 1});
-      encoder.setViewport(draw.rect);
-      encoder.drawFullscreen({});
-    }
-  };
-  frame.graph.addPass(std::move(pass));
+  addLevelPass(frame.graph, prefix + "rows", rows, std::move(rowDraws),
+               planner::combineKeys(depth.contentKey, 0xb0bd0u));
+  addLevelPass(frame.graph, prefix + "levels", bounds.atlas, std::move(levelDraws),
+               planner::combineKeys(depth.contentKey, 0xb0bd1u));
   return bounds;
 }
 
@@ -109,10 +91,11 @@ Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, Recei
   // Half of the narrowest kernel and half a texel to its tap's centre; without highp a fragment's own place
   // is off by up to a texel.
   const double slack = depth.storage == DepthStorage::packed16 ? 2.0 : 1.0;
-  const glm::vec4 uniform(bounds->blocks, 1.0 / (bounds->blockTexels * bounds->blocks), bounds->lastLevel,
-                          slack);
+  const double texelsPerBlock = bounds->blockTexels;
+  const glm::vec4 uniform(bounds->blocks, 1.0 / (texelsPerBlock * bounds->blocks), bounds->lastLevel, slack);
   const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
-                           space.nearestCasterDepth * space.depthUnit, 0.0);
+                           space.nearestCasterDepth * space.depthUnit,
+                           1.0 / (texelsPerBlock * kReachBlocks));
   shading.setUniforms = [uniform, penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
                                                                                     gl::Context& context) {
     inner(program, context);

@@ -97,9 +97,8 @@ class PcfQuantized final : public Technique {
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
-    shading.defines.push_back("HS_NEAREST_LEVEL");
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, *depth, shading);
+    addSelfReceiverSearch(shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 

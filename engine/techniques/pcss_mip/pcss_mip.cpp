@@ -31,7 +31,7 @@ class PcssMip final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, *depth, shading);
+    addSelfReceiverSearch(shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     return shading;
   }
