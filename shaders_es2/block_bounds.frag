@@ -5,7 +5,7 @@
 #include "depth_storage.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
-uniform HS_HIGHP vec4 u_sourceSize;  // x: texels per side, y: 1 / x
+uniform HS_HIGHP vec4 u_sourceSize;  // x: texels per side, y: 1 / x, z: blocks per side
 
 #ifdef HS_DEPTH_PACKED16
 vec4 hs_bounds(HS_HIGHP vec4 stored) {
@@ -43,7 +43,7 @@ vec4 hs_packBounds(HS_Bounds b) {
 
 void main() {
   // Centre of the first source texel of the block.
-  HS_HIGHP vec2 first = (floor(v_uv * u_sourceSize.x / float(HS_FACTOR)) * float(HS_FACTOR) + 0.5) * u_sourceSize.y;
+  HS_HIGHP vec2 first = (floor(v_uv * u_sourceSize.z) * float(HS_FACTOR) + 0.5) * u_sourceSize.y;
   HS_Bounds bounds = hs_bounds(texture2D(u_source, first));
   HS_HIGHP vec2 offset = vec2(0.0);
   for (int i = 1; i < HS_FACTOR * HS_FACTOR; ++i) {

@@ -1,38 +1,52 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Mean occupancy and depth of casters over a region of the map, from an atlas of mip levels: level 0 on the
-// left, the others stacked on its right, each inside a gutter of empty texels ("nothing there" outside).
+// Mean gap to the casters over a region of the map, from an atlas of levels of cells that hold an occupied share and
+// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl.
+//
+// Cells are weighed here, not by the sampler: filters of 8 bits leave no depth to tell widths by, and a cell
+// beyond the receiver blocks nothing.
 uniform HS_HIGHP sampler2D u_pyramid;
-// x: side of level 0, yz: 1 / atlas size, w: last level
+// x: cells per side of the finest level, y: last level, z: 1 / texels of the depth map per side
 uniform HS_HIGHP vec4 u_pyramidLayout;
-// x: depth of the nearest caster, y: depth range of casters, z: texels of the depth map per texel of level 0,
-// w: depth of the farthest caster
+// x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
 
-HS_HIGHP vec2 hs_pyramidLevel(HS_HIGHP vec2 uv, float level) {
-  HS_HIGHP float side = u_pyramidLayout.x * exp2(-level);
-  HS_HIGHP vec2 origin =
-      level < 0.5 ? vec2(1.0) : vec2(u_pyramidLayout.x + 3.0, 1.0 + u_pyramidLayout.x - 2.0 * side + 2.0 * (level - 1.0));
-  HS_HIGHP vec2 local = clamp(uv * side, -0.5, side + 0.5);
-  HS_COUNT(1);
-  return texture2D(u_pyramid, (origin + local) * u_pyramidLayout.yz).rg;
+// A tent of two cells' width around the receiver. x: share of it that lies nearer, y: share times gap.
+HS_HIGHP vec2 hs_cellsAround(HS_HIGHP float level) {
+  HS_HIGHP float side = floor(u_pyramidLayout.x * exp2(-level) + 0.5);
+  HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_pyramidLayout.x, u_pyramidLayout.x - 2.0 * side);
+  HS_HIGHP vec2 at = hs_texel * (side * u_pyramidLayout.z) - 0.5;
+  HS_HIGHP vec2 first = floor(at);
+  HS_HIGHP vec2 part = at - first;
+  HS_HIGHP vec2 corner = vec2(0.0);
+  HS_HIGHP vec2 sum = vec2(0.0);
+  for (int i = 0; i < 4; ++i) {
+    HS_HIGHP vec2 cell = first + corner;
+    HS_HIGHP vec2 inside = step(vec2(0.0), cell) * step(cell, vec2(side - 0.5));
+    HS_HIGHP vec2 weight = mix(1.0 - part, part, corner) * inside;
+    HS_HIGHP vec2 stored = hs_unpackOccupancy(
+        texture2D(u_pyramid, (origin + cell + 0.5) * (vec2(2.0 / 3.0, 1.0) / u_pyramidLayout.x)));
+    HS_COUNT(1);
+    HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
+    sum += weight.x * weight.y * stored.x * step(0.0, gap) * vec2(1.0, gap);
+    corner = vec2(1.0 - corner.x, corner.y + corner.x * (1.0 - corner.y));
+  }
+  return sum * (1.0 / 255.0);
 }
 
-// x: occupied share, y: share times normalised depth, over about widthTexels of the depth map.
-HS_HIGHP vec2 hs_occupancy(HS_HIGHP vec2 texel, HS_HIGHP float widthTexels) {
-  // A bilinear fetch of level l weighs a tent of 2^(l+1) level-0 texels: as wide as the region at
-  // 2^l = width / 2.
-  HS_HIGHP float level = clamp(log2(max(widthTexels / (2.0 * u_pyramidRange.z), 1.0)), 0.0, u_pyramidLayout.w);
-  HS_HIGHP vec2 uv = texel * u_map.y;
-#ifdef HS_NEAREST_LEVEL
-  return hs_pyramidLevel(uv, floor(level + 0.5));
-#else
+HS_HIGHP float hs_levelOf(HS_HIGHP float widthTexels) {
+  HS_HIGHP float cellsWide = widthTexels * u_pyramidLayout.x * u_pyramidLayout.z;
+  return clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
+}
+
+// The same over a region of widthTexels of the depth map, more or less: the nearest level's.
+HS_HIGHP vec2 hs_blockersNear(HS_HIGHP float widthTexels) {
+  return hs_cellsAround(floor(hs_levelOf(widthTexels) + 0.5));
+}
+
+// The same between two levels: changes evenly with the width.
+HS_HIGHP vec2 hs_blockersAround(HS_HIGHP float widthTexels) {
+  HS_HIGHP float level = hs_levelOf(widthTexels);
   HS_HIGHP float lower = floor(level);
-  return mix(hs_pyramidLevel(uv, lower), hs_pyramidLevel(uv, min(lower + 1.0, u_pyramidLayout.w)), level - lower);
-#endif
-}
-
-// Depth of the mean blocker in depth units.
-HS_HIGHP float hs_meanBlockerDepth(HS_HIGHP vec2 occupancy) {
-  return u_pyramidRange.x + u_pyramidRange.y * (occupancy.y / max(occupancy.x, 1e-3));
+  return mix(hs_cellsAround(lower), hs_cellsAround(min(lower + 1.0, u_pyramidLayout.y)), level - lower);
 }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Share of 4 x 4 depth texels that hold a caster, and the same share times the casters' mean normalised depth
-// (0 at the nearest caster, 1 at the farthest): both average correctly over any region.
+// Share of 4 x 4 depth texels that hold a caster, and the casters' mean normalised depth (0 at the nearest caster,
+// 1 at the farthest): 16 bits each, for occupancy_level.frag and blocker_pyramid.glsl.
 #include "depth_storage.glsl"
+#include "occupancy_storage.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_depthMap;
 uniform HS_HIGHP vec4 u_sourceSize;  // x: texels per side, y: 1 / x
@@ -20,5 +21,5 @@ void main() {
     float wrapped = step(3.5, offset.x);
     offset += wrapped * vec2(-4.0, 1.0);
   }
-  gl_FragColor = vec4(sum * (1.0 / 16.0), 0.0, 1.0);
+  gl_FragColor = hs_packOccupancy(vec2(sum.x * (1.0 / 16.0), sum.y / max(sum.x, 1.0)));
 }

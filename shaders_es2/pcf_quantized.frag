@@ -8,35 +8,35 @@
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
+#include "penumbra_bounds.glsl"
+#include "occupancy_storage.glsl"
 #include "blocker_pyramid.glsl"
-#include "block_mask.glsl"
 #ifdef HS_CASTING_RECEIVER
 #include "blocker_search.glsl"
 #endif
-uniform HS_HIGHP vec4 u_penumbra;
-uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band, w: aspect
+uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band
 uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
 
-// Width of the receiver's band in texels, or -1: lit.
-HS_HIGHP float hs_bandWidth(out HS_HIGHP float side) {
+// Sides of the receiver's band in texels, or -1: lit.
+HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   side = 1.0;
-  // The nearest caster around bounds the width; the mean caster over that width gives it.
-  HS_HIGHP float width = u_penumbra.x * (hs_receiverValue - hs_nearestAround());
-  if (hs_lightMisses || width <= 0.0) return -1.0;
+  HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
 #ifdef HS_CASTING_RECEIVER
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
-  HS_HIGHP vec2 found = hs_searchBlockers(vec2(width, width * u_bands.w));
-  if (found.x <= 0.0) return -1.0;
-  width = u_penumbra.x * found.y;
+  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
+  if (found.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float width = widest * found.y;
 #else
-  HS_HIGHP vec2 around = hs_occupancy(hs_texel, width);
-  if (around.x <= 0.5 / 255.0) return -1.0;
-  width = u_penumbra.x * max(hs_receiverValue - hs_meanBlockerDepth(around), 0.0);
+  HS_HIGHP vec2 around = hs_blockersNear(widest * hs_widestGap);
+  if (around.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float width = widest * around.y / around.x;
+  around = hs_blockersNear(max(width, 1.0) * 1.25);
+  if (around.x > 0.0) width = widest * around.y / around.x;
 #endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
   HS_HIGHP float third = floor(3.0 * (band + 0.5) / (u_bands.z + 1.0));
   side = third < 0.5 ? u_kernels.x : (third < 1.5 ? u_kernels.y : u_kernels.z);
-  return exp2(u_bands.x + band / u_bands.y);
+  return u_penumbra.xy * (exp2(u_bands.x + band / u_bands.y) / widest);
 }
 
 float halfshadow_class() {
@@ -46,15 +46,13 @@ float halfshadow_class() {
 
 float halfshadow_visibility() {
   hs_prepare();
-#ifndef HS_PHASE_FILTER
   float known = hs_maskClass();
   if (known > -0.5) return known;
-#endif
   HS_HIGHP float side;
-  HS_HIGHP float width = hs_bandWidth(side);
-  if (width < 0.0) return 1.0;
+  HS_HIGHP vec2 width = hs_bandWidth(side);
+  if (width.x < 0.0) return 1.0;
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  return hs_spreadSum(max(vec2(width, width * u_bands.w), vec2(1.0)), side, bias);
+  return hs_spreadSum(max(width, vec2(1.0)), side, bias);
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -8,10 +8,8 @@
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
-#include "block_mask.glsl"
+#include "penumbra_bounds.glsl"
 #include "blocker_search.glsl"
-// xy: kernel width in texels per unit of depth difference, z: depth of the nearest caster
-uniform HS_HIGHP vec4 u_penumbra;
 
 float halfshadow_class() {
   hs_prepare();
@@ -20,14 +18,9 @@ float halfshadow_class() {
 
 float halfshadow_visibility() {
   hs_prepare();
-#ifndef HS_PHASE_FILTER
   float known = hs_maskClass();
   if (known > -0.5) return known;
-#endif
-  // The nearest caster around bounds the region to search.
-  HS_HIGHP vec2 width = u_penumbra.xy * (hs_receiverValue - hs_nearestAround());
-  if (hs_lightMisses || width.x <= 0.0) return 1.0;
-  HS_HIGHP vec2 found = hs_searchBlockers(width);
+  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
   if (found.x <= 0.0) return 1.0;
   if (found.x >= 1.0) return 0.0;
   return hs_pcfSpread(max(u_penumbra.xy * found.y, vec2(1.0)));

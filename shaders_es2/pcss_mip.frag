@@ -7,30 +7,27 @@
 #include "receiver_inputs.glsl"
 #include "shadow_tap.glsl"
 #include "kernel_spread.glsl"
+#include "penumbra_bounds.glsl"
+#include "occupancy_storage.glsl"
 #include "blocker_pyramid.glsl"
-#include "block_mask.glsl"
 #ifdef HS_CASTING_RECEIVER
 #include "blocker_search.glsl"
 #endif
-uniform HS_HIGHP vec4 u_penumbra;
 
-// Width of the penumbra in texels, or -1: lit.
-HS_HIGHP float hs_penumbraWidth() {
+// Width of the penumbra in texels along both axes, or -1: lit.
+HS_HIGHP vec2 hs_penumbraWidth() {
 #ifdef HS_CASTING_RECEIVER
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
-  HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - hs_nearestAround());
-  if (hs_lightMisses || widest <= 0.0) return -1.0;
-  HS_HIGHP vec2 found = hs_searchBlockers(vec2(widest, widest * u_penumbra.y / u_penumbra.x));
-  return found.x > 0.0 ? u_penumbra.x * found.y : -1.0;
+  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
+  return found.x > 0.0 ? u_penumbra.xy * found.y : vec2(-1.0);
 #else
-  HS_HIGHP float widest = u_penumbra.x * (hs_receiverValue - u_penumbra.z);
-  if (hs_lightMisses || widest <= 0.0) return -1.0;
-  HS_HIGHP vec2 coarse = hs_occupancy(hs_texel, widest);
-  if (coarse.x <= 0.5 / 255.0) return -1.0;
-  HS_HIGHP float gap = max(hs_receiverValue - hs_meanBlockerDepth(coarse), 0.0);
-  HS_HIGHP vec2 fine = hs_occupancy(hs_texel, max(u_penumbra.x * gap, 1.0) * 1.25);
-  if (fine.x > 0.5 / 255.0) gap = max(hs_receiverValue - hs_meanBlockerDepth(fine), 0.0);
-  return u_penumbra.x * gap;
+  HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
+  HS_HIGHP vec2 coarse = hs_blockersNear(widest * hs_widestGap);
+  if (coarse.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float gap = coarse.y / coarse.x;
+  HS_HIGHP vec2 fine = hs_blockersAround(max(widest * gap, 1.0) * 1.25);
+  if (fine.x > 0.0) gap = fine.y / fine.x;
+  return u_penumbra.xy * gap;
 #endif
 }
 
@@ -41,13 +38,11 @@ float halfshadow_class() {
 
 float halfshadow_visibility() {
   hs_prepare();
-#ifndef HS_PHASE_FILTER
   float known = hs_maskClass();
   if (known > -0.5) return known;
-#endif
-  HS_HIGHP float width = hs_penumbraWidth();
-  if (width < 0.0) return 1.0;
-  return hs_pcfSpread(max(vec2(width, width * u_penumbra.y / u_penumbra.x), vec2(1.0)));
+  HS_HIGHP vec2 width = hs_penumbraWidth();
+  if (width.x < 0.0) return 1.0;
+  return hs_pcfSpread(max(width, vec2(1.0)));
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_blocks/level_atlas.hpp"
 
 namespace halfshadow::techniques {
 
@@ -17,7 +17,7 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*filter.program);
     const float size = static_cast<float>(filter.sourceSize);
-    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, 0, 0));
+    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, filter.targetSize, 0));
     if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
     const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler),
                                      &context.texture(filter.source)};
@@ -25,6 +25,11 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     encoder.drawFullscreen({});
   };
   graph.addPass(std::move(pass));
+}
+
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels) {
+  return {"HS_REACH_S " + std::to_string(reachS), "HS_REACH_T " + std::to_string(reachT),
+          "HS_CELL " + std::to_string(cellTexels)};
 }
 
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
@@ -60,6 +65,7 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
                                 .source = source,
                                 .target = target,
                                 .sourceSize = size,
+                                .targetSize = targetSize,
                                 .contentKey = key,
                                 .sampler = "u_source"});
     source = target;
@@ -68,20 +74,15 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
     fromDepth = false;
   }
   auto program =
-      frame.programs.get({"fullscreen.vert", "block_dilate.frag", {"HS_REACH " + std::to_string(reach)}});
+      frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(reach, reach, 1)});
   if (!program) return program.error();
   const std::string name = prefix + "dilated";
   bounds.map = frame.graph.addResource(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
   const std::uint64_t key =
       planner::combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
-  addFilterPass(frame.graph, {.name = name,
-                              .program = *program,
-                              .source = source,
-                              .target = bounds.map,
-                              .sourceSize = size,
-                              .contentKey = key,
-                              .sampler = "u_source"});
+  const gl::Rect whole{0, 0, size, size};
+  addLevelPass(frame.graph, name, bounds.map, {{*program, {source, size, size, whole}, whole}}, key);
   return bounds;
 }
 
@@ -94,22 +95,6 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
     inner(program, context);
     program.set(context, "u_mask", mask);
   };
-}
-
-Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
-  const double widest = widestPenumbraTexels(frame, depth.space);
-  auto bounds = declareBlockBounds(frame, depth, std::min(0.5 * widest + 1.0, 0.5 * depth.space.mapSize));
-  if (!bounds) return bounds.error();
-  addBlockMask(shading, *bounds);
-  shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
-  return {};
-}
-
-double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
-  const double farthest =
-      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
-  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
-         (farthest - space.nearestCasterDepth);
 }
 
 }  // namespace halfshadow::techniques

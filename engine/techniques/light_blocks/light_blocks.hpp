@@ -24,26 +24,37 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds);
 /// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
 double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space);
 
-/// For filters as wide as the penumbra: a mask that covers the widest one, so that one fetch finds the lit
-/// and the umbra receivers, and the way of skipping that goes with it.
-Status addPenumbraMask(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
+/// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach that
+/// the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
+struct PenumbraBounds {
+  framegraph::ResourceId atlas;
+  int blockTexels = 8;  ///< side of a block of the finest level
+  int blocks = 2;       ///< per side of the finest level, a power of two
+  int lastLevel = 0;    ///< of two blocks per side
+};
+Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const LightDepth& depth);
+/// Adds bounds and penumbra scale to a receiver program that includes penumbra_bounds.glsl, and the way of
+/// skipping that goes with them: they find the lit and the umbra receivers.
+Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
 
-/// Occupied share and share times normalised depth, all mip levels in one atlas.
+/// Defines of block_dilate.frag: bounds of cells of `cellTexels` source texels a side and of their neighbours
+/// up to `reachS` and `reachT` cells away.
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels);
+
+/// Occupied share and mean depth of cells of the map at all sizes, in one atlas.
 struct BlockerPyramid {
   framegraph::ResourceId atlas;
-  int baseSize = 256;
-  int lastLevel = 0;
-  int texelsPerBase = 4;
+  int cells = 256;        ///< per side of the finest level
+  int texelsPerCell = 4;  ///< there
+  int lastLevel = 0;      ///< of two cells per side
 };
 Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const LightDepth& depth);
 /// Adds texture and uniforms to a receiver program that includes blocker_pyramid.glsl.
 void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const BlockerPyramid& pyramid);
 
-/// For techniques that take the mean blocker from the pyramid: receivers for which it misleads search by 4 x
-/// 4 taps instead, enough to tell near blockers from far ones. Those are receivers that cast (a mean over a
-/// region takes their own surface for a blocker), and all receivers where casters spread over such a range of
-/// depth that the pyramid's 8 bits no longer tell their penumbrae apart.
-void addSelfReceiverSearch(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading);
+/// For techniques that take the mean blocker from the pyramid: receivers that cast search by taps instead,
+/// since a mean over a region takes their own surface for a blocker.
+void addSelfReceiverSearch(ReceiverShading& shading);
 
 /// A pass that draws one full-screen triangle with `program`, reading one resource as `sampler`.
 struct FilterPass {
@@ -51,6 +62,7 @@ struct FilterPass {
   gl::Program* program = nullptr;
   framegraph::ResourceId source, target;
   int sourceSize = 0;
+  int targetSize = 0;  ///< for shaders that ask which of its texels they write
   std::uint64_t contentKey = 0;
   gl::UniformKey sampler;
   std::function<void(gl::Program&, gl::Context&)> setUniforms;

@@ -161,15 +161,4 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   return shading;
 }
 
-void addPenumbraScale(ReceiverShading& shading, const MapSpace& space) {
-  const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
-                           space.nearestCasterDepth * space.depthUnit,
-                           space.farthestCasterDepth * space.depthUnit);
-  shading.setUniforms = [penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                           gl::Context& context) {
-    inner(program, context);
-    program.set(context, "u_penumbra", penumbra);
-  };
-}
-
 }  // namespace halfshadow::techniques

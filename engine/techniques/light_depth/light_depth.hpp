@@ -64,8 +64,4 @@ std::vector<std::string> depthDefines(DepthStorage storage);
 ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth,
                                    std::string fragmentFile);
 
-/// Adds u_penumbra: kernel width in texels per unit of depth difference along both axes, and the depth of the
-/// nearest caster.
-void addPenumbraScale(ReceiverShading& shading, const MapSpace& space);
-
 }  // namespace halfshadow::techniques

@@ -97,10 +97,8 @@ class PcfQuantized final : public Technique {
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
-    shading.defines.push_back("HS_NEAREST_LEVEL");
-    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, *depth, shading);
-    addPenumbraScale(shading, depth->space);
+    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
+    addSelfReceiverSearch(shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
@@ -112,9 +110,7 @@ class PcfQuantized final : public Technique {
     const double octavesApart = widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 0.5;
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
-    const double aspect =
-        space.kernelTexelsPerDepth.x > 0 ? space.kernelTexelsPerDepth.y / space.kernelTexelsPerDepth.x : 1.0;
-    const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, aspect);
+    const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, 0.0);
     shading.setUniforms = [bandUniform, inner = std::move(shading.setUniforms)](gl::Program& program,
                                                                                 gl::Context& context) {
       inner(program, context);

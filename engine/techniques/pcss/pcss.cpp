@@ -28,8 +28,7 @@ class Pcss final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss.frag");
     shading.defines.push_back("HS_SEARCH " + frame.settings.text("pcss.search"));
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss.size"));
-    addPenumbraScale(shading, depth->space);
-    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
+    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
     return shading;
   }
 };

@@ -30,9 +30,8 @@ class PcssMip final : public Technique {
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
-    if (Status s = addPenumbraMask(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, *depth, shading);
-    addPenumbraScale(shading, depth->space);
+    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
+    addSelfReceiverSearch(shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     return shading;
   }

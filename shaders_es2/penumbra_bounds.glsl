@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Which part of the map can hold blockers of this fragment: the smallest and the largest stored depth around it,
+// at the reach that the answer itself asks for.
+//
+// A blocker at depth d touches the fragment's cone to the light only within half the penumbra's width at d. The
+// nearest caster of all bounds that width; the nearest one within it gives a smaller bound, and so on: a caster
+// beside the light widens the search only where it can be in the way.
+uniform HS_HIGHP sampler2D u_blockMap;
+// x: blocks per side of the finest level, y: 1 / (texels per block × x), z: last level, w: slack of the reach in texels
+uniform HS_HIGHP vec4 u_bounds;
+// xy: kernel width in texels per unit of depth difference, z: depth of the nearest caster,
+// w: 1 / reach of the finest level in texels
+uniform HS_HIGHP vec4 u_penumbra;
+
+// Depth between the fragment and the nearest caster that can block it, depth units; set by hs_maskClass().
+HS_HIGHP float hs_widestGap = 0.0;
+
+// Bytes of the bounds around the fragment, of all texels within `reach` and some more: each level holds those of a
+// block and of the four to each side.
+HS_HIGHP vec4 hs_boundsWithin(HS_HIGHP float reach) {
+  HS_HIGHP float level = clamp(ceil(log2(max(reach * u_penumbra.w, 1.0))), 0.0, u_bounds.z);
+  HS_HIGHP float side = floor(u_bounds.x * exp2(-level) + 0.5);
+  HS_HIGHP vec2 block = clamp(floor(hs_texel * (side * u_bounds.y)), 0.0, side - 1.0);
+  HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_bounds.x, u_bounds.x - 2.0 * side);
+  HS_COUNT(1);
+  return floor(texture2D(u_blockMap, (origin + block + 0.5) * (vec2(2.0 / 3.0, 1.0) / u_bounds.x)) * 255.0 + 0.5);
+}
+
+// 1: every tap is lit, 0: every tap is shadowed, -1: the filter decides. Both bounds are rounded outward.
+float hs_maskClass() {
+  if (hs_lightMisses) return 1.0;
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
+  HS_HIGHP float halfWidth = 0.5 * max(u_penumbra.x, u_penumbra.y);
+  hs_widestGap = hs_receiverValue - u_penumbra.z;
+  HS_HIGHP float gapHigh = 0.0;
+  HS_HIGHP float reach = 0.0;
+  for (int i = 0; i < 3; ++i) {
+    reach = halfWidth * hs_widestGap + u_bounds.w;
+    HS_HIGHP vec4 bytes = hs_boundsWithin(reach);
+#ifdef HS_DEPTH_PACKED16
+    vec4 difference = bytes - vec4(hs_receiver, hs_receiver);
+    HS_HIGHP float gapLow = difference.x + difference.y * (1.0 / 256.0);
+    gapHigh = difference.z + difference.w * (1.0 / 256.0);
+#else
+    HS_HIGHP float gapLow = (bytes.r * 256.0 + bytes.g) * (1.0 / 65536.0) - hs_receiver;
+    // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
+    gapHigh = (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver;
+#endif
+    hs_widestGap = min(hs_widestGap, -gapLow);
+    if (gapLow >= -bias) return 1.0;
+  }
+  return gapHigh < -bias - slope * reach ? 0.0 : -1.0;
+}
