@@ -10,7 +10,7 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// 6.5 MiB.
+/// 7.5 MiB.
 constexpr std::size_t kMostFootprintVertices = 65536;
 /// Volumes are taken a little larger than the receiver, so that it lies inside whatever rounding does.
 constexpr double kBeyondReceiver = 1e-3;
