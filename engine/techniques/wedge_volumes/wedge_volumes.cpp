@@ -154,10 +154,9 @@ const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   volumes.plane = plane;
   volumes.farthest = farthest;
   volumes.reach = reach;
-  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
   // What a caster covers at all counts once, however often it covers it.
   const scene::LightSilhouettes& silhouettes =
-      volumes.silhouettes.update(casters, volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+      volumes.silhouettes.update(placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
