@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Split into bytes by integer arithmetic and stored a quarter above the step, so that targets which round and
-// targets which truncate keep all bits that the arithmetic has. Alpha: a mark, or where the facet faces, on its side towards
+// A number of 5 bits of exponent and 19 of mantissa, split into bytes by integer arithmetic and stored a quarter above
+// the step, so that targets which round and targets which truncate keep all bits that the arithmetic has. Alpha: a mark, or where the facet faces, on its side towards
 // the eye: a point of a grid of 15 x 16 over an octahedron, within 17 degrees.
 varying HS_HIGHP float v_distance;
+uniform HS_HIGHP float u_nearestReceiver;  // what is taken off distances
 #ifdef HS_FACET_NORMAL
 varying HS_HIGHP vec4 v_facet;
 uniform HS_HIGHP mat3 u_pixelRay;  // ray of a window position (x, y, 1), 1 along the view axis
@@ -36,11 +37,20 @@ void main() {
   HS_HIGHP float met = v_facet.w / (abs(across) < 1e-20 ? 1e-20 : across);
   along = abs(met - along) < 0.01 * along ? met : along;
 #endif
-  HS_HIGHP float scaled = clamp(along, 0.0, 0.9999999) * 256.0;
-  HS_HIGHP float high = floor(scaled);
-  scaled = (scaled - high) * 256.0;
-  HS_HIGHP float middle = floor(scaled);
-  HS_HIGHP float low = floor((scaled - middle) * 256.0);
+  HS_HIGHP float scaled = clamp(along - u_nearestReceiver, 0.0, 0.9999999);
+  // Doubled until it is at least 1/2.
+  HS_HIGHP float exponent = 0.0;
+  if (scaled < 1.0 / 65536.0) scaled *= 65536.0, exponent += 16.0;
+  if (scaled < 1.0 / 256.0) scaled *= 256.0, exponent += 8.0;
+  if (scaled < 1.0 / 16.0) scaled *= 16.0, exponent += 4.0;
+  if (scaled < 1.0 / 4.0) scaled *= 4.0, exponent += 2.0;
+  if (scaled < 1.0 / 2.0) scaled *= 2.0, exponent += 1.0;
+  HS_HIGHP float mantissa = max(2.0 * scaled - 1.0, 0.0) * 8.0;
+  HS_HIGHP float high = floor(mantissa);
+  mantissa = (mantissa - high) * 256.0;
+  HS_HIGHP float middle = floor(mantissa);
+  HS_HIGHP float low = floor((mantissa - middle) * 256.0);
+  high += 8.0 * exponent;
 #ifdef HS_FACETS
   float code = hs_facetCode();
 #else

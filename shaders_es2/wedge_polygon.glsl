@@ -3,8 +3,8 @@
 // The integral of x dy along a piece of silhouette as a receiver sees it on the light's plane, with x and y clamped to
 // the light's square. Exact, continuous in the receiver's position, and additive: pieces that share a chord cancel
 // along it. Programs whose vertices come projected, as varyings, define HS_WEDGE_PROJECTED.
-// `w`, the height of the receiver above a vertex, must exceed HS_WEDGE_NEAR for the vertex to occlude. Receivers are
-// split in two by the heights where all vertices do, which is the rule.
+// `w`, the height of the receiver above a vertex in units of the caster's size, must exceed HS_WEDGE_NEAR for the vertex
+// to occlude. Receivers are split in two by the heights where all vertices do, which is the rule.
 #ifdef HS_NO_HIGHP
 #define HS_WEDGE_ALL_NEAR 4e-3
 #define HS_WEDGE_FLAT 1e-2

@@ -163,6 +163,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       .casterPointsWorld = cache.casterPointsWorld,
       .receiverFarDistance = farthest,
       .casters = target.casters,
+      .groups = cache.groups,
       .receivers = frame.receivers,
       .shadowlessReceivers = target.shadowlessReceivers,
       .contentKey = plan.contentKey,

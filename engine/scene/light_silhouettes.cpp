@@ -22,9 +22,9 @@ void appendLoop(const std::vector<glm::dvec3>& loop, Turn turn, LightSilhouettes
   result.loops.push_back(
       {static_cast<std::uint32_t>(result.points.size()), static_cast<std::uint32_t>(loop.size())});
   const auto add = [&](const glm::dvec3& p) {
-    result.points.emplace_back(p);
-    caster.low = glm::min(caster.low, result.points.back());
-    caster.high = glm::max(caster.high, result.points.back());
+    result.points.push_back(p);
+    caster.low = glm::min(caster.low, glm::vec3(p));
+    caster.high = glm::max(caster.high, glm::vec3(p));
   };
   if (turn == Turn::reverse) {
     std::for_each(loop.rbegin(), loop.rend(), add);
@@ -77,17 +77,23 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
 }  // namespace
 
 LightPlane::LightPlane(const AreaLight& light, double heightUnitWorld, double minHalfLength)
-    : centerWorld(light.centerWorld), normal(emissionDirection(light)), heightUnit(heightUnitWorld) {
+    : LightPlane(light, emissionDirection(light) * heightUnitWorld, minHalfLength) {}
+
+LightPlane::LightPlane(const AreaLight& light, const glm::dvec3& toUnitHeightWorld, double minHalfLength)
+    : centerWorld(light.centerWorld),
+      normal(emissionDirection(light)),
+      toUnitHeight(toUnitHeightWorld),
+      heightUnit(glm::dot(normal, toUnitHeightWorld)) {
   const glm::dvec3 helper = std::abs(normal.x) < 0.6 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
   const glm::dvec3 across = glm::normalize(glm::cross(helper, normal));
   halfU = atLeast(light.halfU, across, minHalfLength);
   const glm::dvec3 besideU = glm::normalize(glm::cross(normal, halfU));
   halfV = atLeast(light.halfV, besideU, minHalfLength);
-  axes = glm::inverse(glm::dmat3(halfU, halfV, normal * heightUnitWorld));
+  axes = glm::inverse(glm::dmat3(halfU, halfV, toUnitHeight));
 }
 
 glm::dvec3 LightPlane::toWorld(const glm::dvec3& abh) const {
-  return centerWorld + abh.x * halfU + abh.y * halfV + abh.z * heightUnit * normal;
+  return centerWorld + abh.x * halfU + abh.y * halfV + abh.z * toUnitHeight;
 }
 
 void LightSilhouettes::clear() {

@@ -15,8 +15,8 @@
 
 namespace halfshadow::scene {
 
-/// Coordinates (a, b, h) of a light: the point centerWorld + a·halfU + b·halfV + h·heightUnit·n, n the
-/// emission. The light is the square [-1, 1]² at h = 0, its lit side h > 0; u × v = n, so loops that run
+/// Coordinates (a, b, h) of a light: the point centerWorld + a·halfU + b·halfV + h·toUnitHeight. The light is
+/// the square [-1, 1]² at h = 0, its lit side h > 0; u × v = n, the emission, so loops that run
 /// counter-clockwise for an observer at the light run clockwise in (a, b).
 /// Half vectors shorter than `minHalfLength` are lengthened to it: point lights stay finite.
 struct LightPlane {
@@ -24,11 +24,16 @@ struct LightPlane {
   /// `heightUnitWorld`: world length of h = 1, best the largest distance of a receiver from the light's
   /// plane.
   LightPlane(const AreaLight& light, double heightUnitWorld, double minHalfLength);
+  /// `toUnitHeightWorld`: from the light's centre to the point (0, 0, 1), on the lit side; see light_anchor.hpp.
+  LightPlane(const AreaLight& light, const glm::dvec3& toUnitHeightWorld, double minHalfLength);
   glm::dvec3 fromWorld(const glm::dvec3& pointWorld) const { return axes * (pointWorld - centerWorld); }
   glm::dvec3 toWorld(const glm::dvec3& abh) const;
 
-  glm::dvec3 centerWorld{0.0}, halfU{1, 0, 0}, halfV{0, 1, 0}, normal{0, 0, 1};
-  double heightUnit = 1.0;
+  /// The place of (0, 0, 1).
+  glm::dvec3 unitHeightWorld() const { return centerWorld + toUnitHeight; }
+
+  glm::dvec3 centerWorld{0.0}, halfU{1, 0, 0}, halfV{0, 1, 0}, normal{0, 0, 1}, toUnitHeight{0, 0, 1};
+  double heightUnit = 1.0;  ///< world distance of h = 1 from the light's plane
   glm::dmat3 axes{1.0};  ///< (a, b, h) = axes · (world - centerWorld)
 };
 
@@ -59,7 +64,7 @@ struct LightSilhouettes {
     bool enclosesLight = false;  ///< the source lies inside it: nothing outside sees the light
   };
   /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover.
-  std::vector<glm::vec3> points;
+  std::vector<glm::dvec3> points;
   std::vector<Loop> loops;
   std::vector<Caster> casters;
   Silhouette::Counters counters;  ///< of lightSilhouettes(), over all casters

@@ -36,6 +36,7 @@ class SliceFilterTest : public test::GlTest {
     framegraph::Graph graph;
     const View view;
     const scene::AreaLight light;
+    scene::CasterGroups groups;
     const LightFrame frame{.capabilities = (*context)->capabilities(),
                            .context = **context,
                            .programs = programs,
@@ -43,7 +44,8 @@ class SliceFilterTest : public test::GlTest {
                            .settings = settings,
                            .graph = graph,
                            .view = view,
-                           .light = light};
+                           .light = light,
+                           .groups = groups};
     auto texture = gl::Texture::create(**context, {.width = size, .height = size}, source.data());
     auto copy = programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
     EXPECT_TRUE(texture.ok() && copy.ok());

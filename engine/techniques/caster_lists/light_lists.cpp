@@ -15,12 +15,6 @@ constexpr double kCasterTileShare = 0.5;
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
-/// The receiver's index among casters.
-std::uint32_t casterOf(const LightFrame& frame, const DrawItem& receiver) {
-  const auto found = std::ranges::find(frame.casters, receiver.geometry, &DrawItem::geometry);
-  return found == frame.casters.end() ? kNoObject : static_cast<std::uint32_t>(found - frame.casters.begin());
-}
-
 /// Direction of a pixel's ray in the light's coordinates, from (x, y, 1) with x and y in [0, 1] over the
 /// view.
 glm::dmat3 pixelRays(const View& view, const scene::LightPlane& plane) {
@@ -76,7 +70,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       Receiver& cached = receivers_[item.geometry];
       if (cached.revision != item.revision) {
         cached.revision = item.revision;
-        const ListedReceiver receiver{.ownObject = casterOf(frame, item), .lift = loops_.lift()};
+        const ListedReceiver receiver{.ownObject = placedCasterOf(frame, item), .lift = loops_.lift()};
         cached.tiles =
             receiverTiles({.mesh = item.sourceMesh,
                            .worldFromObject = item.worldFromObject,

@@ -28,7 +28,7 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
   const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
   lift_ = liftDistance(frame.casters, frame.settings.real("bias"));
   plane_ = scene::LightPlane(frame.light, unit, kMinHalfLength * unit);
-  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
+  const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
   subLights_.clear();
   silhouettes_.resize(subLights.size());
   for (std::size_t i = 0; i < subLights.size(); ++i) {

@@ -14,7 +14,8 @@ Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const 
     return part.convex && (which == OwnSurfaces::hollow || !isCoarse(part));
   };
   const bool some = std::ranges::any_of(frame.receivers, [&](const DrawItem& item) {
-    return item.casts && !std::ranges::all_of(item.halfEdges().parts(), needsNone);
+    const std::uint32_t own = placedCasterOf(frame, item);
+    return own != kNoCaster && !std::ranges::all_of(placedCasters(frame)[own].mesh->parts(), needsNone);
   });
   if (!some) return shading;
   const ListRequest request{.subLights = subLights,

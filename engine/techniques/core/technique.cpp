@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/core/technique.hpp"
 
+#include <algorithm>
+
 namespace halfshadow::techniques {
 
 gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach) {
@@ -11,15 +13,24 @@ gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double ne
   return item.mirrored ? gl::Cull::front : gl::Cull::back;
 }
 
-std::vector<scene::PlacedCaster> placedCasters(const LightFrame& frame) {
-  std::vector<scene::PlacedCaster> casters;
-  for (std::uint32_t i = 0; i < frame.casters.size(); ++i) {
-    casters.push_back({.mesh = &frame.casters[i].halfEdges(),
-                       .worldFromObject = frame.casters[i].worldFromObject,
-                       .object = i,
-                       .revision = frame.casters[i].revision});
+std::span<const scene::PlacedCaster> placedCasters(const LightFrame& frame) {
+  if (frame.groups.holds(frame.contentKey)) return frame.groups.placed();
+  std::vector<scene::SceneCaster> casters;
+  for (const DrawItem& item : frame.casters) {
+    casters.push_back({.mesh = item.sourceMesh,
+                       .geometry = item.geometry,
+                       .worldFromObject = item.worldFromObject,
+                       .revision = item.revision});
   }
-  return casters;
+  frame.groups.update(casters, frame.contentKey);
+  return frame.groups.placed();
+}
+
+std::uint32_t placedCasterOf(const LightFrame& frame, const DrawItem& receiver) {
+  const auto found = std::ranges::find(frame.casters, receiver.geometry, &DrawItem::geometry);
+  if (found == frame.casters.end()) return kNoCaster;
+  placedCasters(frame);
+  return frame.groups.placedOf(static_cast<std::size_t>(found - frame.casters.begin()));
 }
 
 FilterSkip filterSkipFromName(std::string_view name) {

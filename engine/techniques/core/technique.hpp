@@ -17,6 +17,7 @@
 #include "framegraph/graph.hpp"
 #include "gl/program.hpp"
 #include "planner/light_fit.hpp"
+#include "scene/caster_groups.hpp"
 #include "scene/half_edge_mesh.hpp"
 #include "scene/light_silhouettes.hpp"
 #include "techniques/core/gpu_mesh.hpp"
@@ -91,6 +92,7 @@ struct LightFrame {
   std::span<const glm::dvec3> casterPointsWorld;  ///< what the fit encloses, three a triangle
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< those the light view is made from
+  scene::CasterGroups& groups;        ///< of `casters`, kept between frames: see placedCasters()
   std::span<const DrawItem> receivers;
   /// Objects that receive but cast nothing, for maps that hold the whole scene.
   std::span<const DrawItem> shadowlessReceivers;
@@ -101,8 +103,12 @@ struct LightFrame {
   FilterSkip preferredSkip = FilterSkip::stencil;  ///< setting filter_skip: the device profile's choice
 };
 
-/// The frame's casters as silhouettes are taken of them; `object` is the index in LightFrame::casters.
-std::vector<scene::PlacedCaster> placedCasters(const LightFrame& frame);
+/// The frame's casters as silhouettes are taken of them, those whose borders coincide as one; `object` is the
+/// index in this list. Meshes last until the casters change.
+std::span<const scene::PlacedCaster> placedCasters(const LightFrame& frame);
+inline constexpr std::uint32_t kNoCaster = ~0u;
+/// Which of placedCasters() holds the receiver; kNoCaster where it casts nothing.
+std::uint32_t placedCasterOf(const LightFrame& frame, const DrawItem& receiver);
 
 /// Of the setting value "branch", "loop" or "stencil".
 FilterSkip filterSkipFromName(std::string_view name);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
+#include <limits>
 
 namespace halfshadow::techniques {
 namespace {
@@ -77,6 +78,7 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
     const bool stream = &program == programs.planes || &program == programs.planesAndCodes;
     encoder.useProgram(program);
     program.set(gl, "u_inverseFarthest", static_cast<float>(scale));
+    program.set(gl, "u_nearestReceiver", static_cast<float>(scale * depth.nearest));
     program.set(gl, "u_clipFromObject", glm::mat4(depth.clipFromWorld * item.worldFromObject));
     program.set(gl, "u_receiverMark", marked && hasFewTriangles(item) ? 128.0f : 254.75f);
     if (&program != programs.plain) {
@@ -109,12 +111,15 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlph
   ReceiverDepth depth;
   depth.clipFromWorld = withoutFarPlane(frame.view.clipFromWorld);
   const glm::dvec4 w = row(frame.view.clipFromWorld, 3);
-  depth.farthest = 1e-6;
+  double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const DrawItem& item : frame.receivers) {
     for (const glm::dvec3& corner : item.boundsWorld.corners()) {
-      depth.farthest = std::max(depth.farthest, glm::dot(w, glm::dvec4(corner, 1.0)) * (1.0 + 1e-6));
+      const double along = glm::dot(w, glm::dvec4(corner, 1.0));
+      low = std::min(low, along), high = std::max(high, along);
     }
   }
+  depth.farthest = high > 0.0 ? high * (1.0 + 1e-6) : 1.0;
+  depth.nearest = std::clamp(low * (1.0 - 1e-6), 0.0, depth.farthest);
   depth.packed = findResource(frame.graph, name);
   depth.depthTest = findResource(frame.graph, name + " test");
   if (depth.packed.valid()) return depth;
@@ -158,7 +163,8 @@ void bindReceiverPosition(framegraph::PassContext& context, gl::Program& program
                           const ReceiverRays& rays) {
   gl::Encoder& encoder = context.encoder;
   program.set(encoder.context(), "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
-  program.set(encoder.context(), "u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
+  program.set(encoder.context(), "u_receiverRay",
+              glm::vec4(glm::vec3(rays.rayOrigin), static_cast<float>(depth.nearest / depth.farthest)));
   program.set(encoder.context(), "u_receiverRayX",
               glm::vec4(glm::vec3(rays.rayX), 1.0f / static_cast<float>(context.viewport.width)));
   program.set(encoder.context(), "u_receiverRayY",

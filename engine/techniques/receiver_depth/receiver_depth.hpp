@@ -13,7 +13,9 @@ namespace halfshadow::techniques {
 bool hasFewTriangles(const DrawItem& receiver);
 
 struct ReceiverDepth {
-  /// RGB: distance along the view axis / `farthest`, 24 bits; A: ReceiverAlpha, 0 where there is no receiver.
+  /// RGB: distance along the view axis less `nearest`, over `farthest`, a number of 5 bits of exponent and 19
+  /// of mantissa: near surfaces are as exact before a wide ground as without it. A: ReceiverAlpha, 0 where
+  /// there is no receiver.
   framegraph::ResourceId packed;
   /// Renderbuffer for depth tests against receivers: attach with InitialContent::keep.
   framegraph::ResourceId depthTest;
@@ -21,6 +23,7 @@ struct ReceiverDepth {
   /// cut.
   glm::dmat4 clipFromWorld{1.0};
   double farthest = 1.0;  ///< world length of the stored 1
+  double nearest = 0.0;   ///< and of the stored 0: no receiver is nearer
 };
 
 /// What alpha holds.
@@ -35,7 +38,7 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlph
 
 /// A pixel's place in the coordinates (a, b, h) of a light is
 /// eye + distance · (rayOrigin + x · rayX + y · rayY), x and y its window coordinates, distance what is
-/// stored.
+/// stored and ReceiverDepth::nearest.
 struct ReceiverRays {
   glm::dvec3 eye{0.0}, rayOrigin{0.0}, rayX{0.0}, rayY{0.0};
 };

@@ -57,11 +57,11 @@ void CasterVolume::draw(gl::Encoder& encoder, const gl::DrawState& state, Volume
 }
 
 Result<const CasterVolume*> VolumeCache::get(gl::Context& context, int lightIndex,
-                                             const glm::dvec3& lightWorld, const DrawItem& caster,
+                                             const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
                                              VolumeSurface surface, int maxLayers) {
-  CasterVolume& volume = volumes_[{lightIndex, caster.geometry}];
+  const scene::HalfEdgeMesh& mesh = *caster.mesh;
+  CasterVolume& volume = volumes_[{lightIndex, &mesh}];
   volume.used_ = true;
-  const scene::HalfEdgeMesh& mesh = caster.halfEdges();
   if (volume.revision_ != caster.revision || volume.lightWorld_ != lightWorld) {
     const glm::dmat3 linear(caster.worldFromObject);
     const glm::dvec3 lightObject =

@@ -207,18 +207,23 @@ Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& v
   result.clipFromDirection = glm::mat4(clipFromDirection);
   Batcher batcher(planner::lightSpace(frame.light), maxLayers);
   int uncapped = 0, outOfView = 0;
-  for (const DrawItem& caster : frame.casters) {
+  const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
+  std::vector<bool> drawn(casters.size(), true);
+  for (const DrawItem& item : frame.casters) {
+    if (!item.receives) drawn[placedCasterOf(frame, item)] = false;
+  }
+  for (const scene::PlacedCaster& caster : casters) {
     scene::Bounds bounds;
-    for (const scene::CasterPart& part : caster.halfEdges().parts()) bounds.include(part.bounds);
+    for (const scene::CasterPart& part : caster.mesh->parts()) bounds.include(part.bounds);
     const BoxCorners box = boxCornersWorld(caster.worldFromObject, bounds);
     VolumeDraw draw;
     draw.depthFail = !missesNearPyramid(view, light, box);
     // The eye looks into the volume of a caster that is not drawn through its cap.
-    draw.surface = draw.depthFail || !caster.receives ? VolumeSurface::capped : VolumeSurface::sides;
+    draw.surface = draw.depthFail || !drawn[caster.object] ? VolumeSurface::capped : VolumeSurface::sides;
     auto volume = cache.get(frame.context, frame.lightIndex, light, caster, draw.surface, maxLayers);
     if (!volume) return volume.error();
     draw.volume = *volume;
-    draw.mirrored = caster.mirrored;
+    draw.mirrored = glm::determinant(glm::dmat3(caster.worldFromObject)) < 0.0;
     draw.clipFromObject = glm::mat4(view.clipFromWorld * caster.worldFromObject);
     draw.scissor = shadowScissor(view, light, box);
     uncapped += draw.surface == VolumeSurface::sides;

@@ -52,18 +52,22 @@ glm::vec4 facetOf(const Polygon& triangle) {
   const glm::dvec3 a = triangle.corners[0].light;
   const glm::dvec3 n = glm::cross(triangle.corners[1].light - a, triangle.corners[2].light - a);
   const double length = glm::length(n);
-  return length > 0.0 ? glm::vec4(glm::dvec4(n, glm::dot(n, a)) / length) : glm::vec4(0.0f);
+  return length > 0.0 ? glm::vec4(glm::dvec4(n, glm::dot(n, a - glm::dvec3(0, 0, 1))) / length)
+                      : glm::vec4(0.0f);
 }
 
 FootprintVertex projected(const Corner& corner, const WedgePieces& pieces, const WedgePiece& piece,
                           const glm::vec4& facet) {
-  FootprintVertex vertex{.positionObject = glm::vec3(corner.object), .facet = facet};
+  const double scale = 1.0 / piece.size();
+  FootprintVertex vertex{.positionObject = glm::vec3(corner.object),
+                         .inverseSize = static_cast<float>(scale),
+                         .facet = facet};
   const glm::dvec3& p = corner.light;
   for (std::uint32_t i = 0; i < kPieceVertices; ++i) {
-    const glm::dvec3 e(pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)]);
-    vertex.x[i] = static_cast<float>(p.z * e.x - e.z * p.x);
-    vertex.y[i] = static_cast<float>(p.z * e.y - e.z * p.y);
-    vertex.w[i] = static_cast<float>(p.z - e.z);
+    const glm::dvec3& e = pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)];
+    vertex.x[i] = static_cast<float>(scale * (p.z * e.x - e.z * p.x));
+    vertex.y[i] = static_cast<float>(scale * (p.z * e.y - e.z * p.y));
+    vertex.w[i] = static_cast<float>(scale * (p.z - e.z));
   }
   return vertex;
 }
@@ -95,7 +99,8 @@ void addFootprints(const ReceiverTriangles& receiver, const WedgePieces& pieces,
     if (polygon.count < 3) continue;
     double nearest = polygon.corners[0].light.z;
     for (std::size_t i = 1; i < polygon.count; ++i) nearest = std::min(nearest, polygon.corners[i].light.z);
-    auto& stream = nearest - piece.extent.farthest >= kAllVerticesNear ? result.beyond : result.beside;
+    const bool beyond = nearest - piece.extent.farthest >= kAllVerticesNear * piece.size();
+    auto& stream = beyond ? result.beyond : result.beside;
     const glm::vec4 facet = facetOf(triangle);
     std::array<FootprintVertex, 8> vertices;
     for (std::size_t i = 0; i < polygon.count; ++i)

@@ -10,16 +10,18 @@
 
 namespace halfshadow::techniques {
 
-/// Least height of receivers above all vertices of a piece for which nothing is clipped: HS_WEDGE_ALL_NEAR.
+/// Least height of receivers above all vertices of a piece, in units of its caster's size, for which nothing
+/// is clipped: HS_WEDGE_ALL_NEAR.
 inline constexpr double kAllVerticesNear = 1e-3;
 
 /// A vertex P of a footprint with the vertices E of its piece projected from it onto the light's plane:
-/// (x, y, w) = (hP·E.ab - hE·P.ab, hP - hE), of which x / w and y / w are the place on the light. Linear in
-/// P. Short pieces repeat their last vertex.
+/// (x, y, w) = (hP·E.ab - hE·P.ab, hP - hE) / size, of which x / w and y / w are the place on the light.
+/// Linear in P. Short pieces repeat their last vertex.
 struct FootprintVertex {
   glm::vec3 positionObject{0.0f};
+  float inverseSize = 1.0f;  ///< of the piece's caster, see WedgePiece::size()
   std::array<float, kPieceVertices> x{}, y{}, w{};
-  glm::vec4 facet{0.0f};  ///< the triangle's plane: dot(xyz, (a, b, h)) = w
+  glm::vec4 facet{0.0f};  ///< the triangle's plane: dot(xyz, (a, b, h - 1)) = w
 };
 
 /// Triangles, three vertices each, wound like the receiver's.

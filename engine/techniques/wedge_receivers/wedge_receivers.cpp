@@ -10,9 +10,9 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// 6.5 MiB.
+/// 7.5 MiB.
 constexpr std::size_t kMostFootprintVertices = 65536;
-/// Volumes end a little behind the receiver, so that it lies inside whatever rounding does.
+/// Volumes are taken a little larger than the receiver, so that it lies inside whatever rounding does.
 constexpr double kBeyondReceiver = 1e-3;
 
 /// Footprints have corners of their own, which rasterisers snap along both axes, those of the visible surface
@@ -48,7 +48,7 @@ void drawFootprints(gl::Encoder& encoder, const gl::DrawState& state, const Rece
   const std::size_t offset = draw.range.first * kStride;
   const gl::Buffer* buffer = &draw.receiver->footprints;
   gl::AttributeBinding bindings[8];
-  bindings[0] = {VertexAttribute::position, buffer, 3, gl::AttributeType::float32, kStride, offset};
+  bindings[0] = {VertexAttribute::position, buffer, 4, gl::AttributeType::float32, kStride, offset};
   for (std::size_t i = 0; i < 6; ++i) {
     bindings[i + 1] = {kVectors[i], buffer,
                        4,           gl::AttributeType::float32,
@@ -62,12 +62,15 @@ void drawFootprints(gl::Encoder& encoder, const gl::DrawState& state, const Rece
 void setPiece(gl::Context& context, gl::Program& program, const WedgeVolumes& volumes, std::uint32_t index) {
   const WedgePiece& piece = volumes.pieces.pieces[index];
   glm::vec4 coordinates[6];
+  const glm::dvec3 anchor(0, 0, 1);
   for (std::uint32_t i = 0; i < kPieceVertices; ++i) {
-    const glm::vec3& vertex = volumes.pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)];
+    const glm::vec3 vertex(
+        volumes.pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)] - anchor);
     for (int axis = 0; axis < 3; ++axis)
       coordinates[2 * axis + static_cast<int>(i / 4)][static_cast<int>(i % 4)] = vertex[axis];
   }
   program.setArray(context, "u_piece", coordinates, 6);
+  program.set(context, "u_pieceInverseSize", static_cast<float>(1.0 / piece.size()));
 }
 }  // namespace
 
@@ -147,13 +150,14 @@ Result<ReceiverDraws> WedgeReceivers::update(const LightFrame& frame, const Wedg
       forEachPiece(volumes, groups[g], [&](std::uint32_t index) {
         const WedgeExtent& extent = volumes.pieces.pieces[index].extent;
         if (!reaches(extent, receiver.bounds)) return;
-        const double from = std::max(extent.nearest, receiver.bounds.low.z - kBeyondReceiver);
-        const auto volumeRect =
-            screenBounds(volumeHull(extent, from, receiver.bounds.high.z + kBeyondReceiver), clipFromLight,
-                         view.width, view.height);
+        const double margin = kBeyondReceiver * (receiver.bounds.high.z - receiver.bounds.low.z);
+        const double from = std::max(extent.nearest, receiver.bounds.low.z - margin);
+        const auto volumeRect = screenBounds(volumeHull(extent, from, receiver.bounds.high.z + margin),
+                                             clipFromLight, view.width, view.height);
         const auto rect = volumeRect ? commonRect(*volumeRect, *itemRect) : std::nullopt;
         if (!rect) return;
-        const bool beyond = receiver.bounds.low.z - extent.farthest >= kAllVerticesNear;
+        const bool beyond = receiver.bounds.low.z - extent.farthest >=
+                            kAllVerticesNear * volumes.pieces.pieces[index].size();
         group.push_back({i, beyond ? WedgePart::beyond : WedgePart::beside, &receiver, {}, index, *rect});
         ++draws.wholeDraws;
         draws.wholeVertices += receiver.vertexCount;
@@ -236,8 +240,9 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
                         const gl::BlendState& blend, float steps) {
   gl::Encoder& encoder = context.encoder;
   gl::Context& gl = encoder.context();
-  const glm::dmat4 lightFromWorld = glm::inverse(worldFromLight(volumes.plane));
-  const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.centerWorld);
+  // Subtracted in double: from a far light the places of receivers differ by little.
+  const glm::dmat4 anchorFromWorld = glm::inverse(worldFromAnchor(volumes.plane));
+  const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.unitHeightWorld());
   gl::Program* current = nullptr;
   for (const ReceiverDraw& draw : draws) {
     const DrawItem& item = items[draw.item];
@@ -255,7 +260,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
     gl::DrawState state{.depth = {.test = gl::Compare::lequal},
                         .cull = hiddenFaces(item, view.eyeWorld, view.nearReach),
                         .blend = blend};
-    program.set(gl, "u_lightFromObject", glm::mat4(lightFromWorld * item.worldFromObject));
+    program.set(gl, "u_lightFromObject", glm::mat4(anchorFromWorld * item.worldFromObject));
     if (draw.receiver->cut) {
       state.polygonOffset = footprintOffset(gl.capabilities());
       drawFootprints(encoder, state, draw);

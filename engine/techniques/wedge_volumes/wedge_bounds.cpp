@@ -18,7 +18,13 @@ gl::Rect unitedRect(const gl::Rect& a, const gl::Rect& b) {
 
 glm::dmat4 worldFromLight(const scene::LightPlane& plane) {
   return {glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
-          glm::dvec4(plane.heightUnit * plane.normal, 0), glm::dvec4(plane.centerWorld, 1)};
+          glm::dvec4(plane.toUnitHeight, 0), glm::dvec4(plane.centerWorld, 1)};
+}
+
+glm::dmat4 worldFromAnchor(const scene::LightPlane& plane) {
+  glm::dmat4 result = worldFromLight(plane);
+  result[3] = glm::dvec4(plane.unitHeightWorld(), 1);
+  return result;
 }
 
 bool reaches(const WedgeExtent& extent, const LightBox& box) {

@@ -23,6 +23,9 @@ struct LightBox {
 
 /// From (a, b, h) to the world.
 glm::dmat4 worldFromLight(const scene::LightPlane& plane);
+/// From (a, b, h - 1) to the world: what single precision holds of the light's coordinates, see
+/// scene/light_anchor.hpp.
+glm::dmat4 worldFromAnchor(const scene::LightPlane& plane);
 
 /// Whether some point of the box can lie in the volume.
 bool reaches(const WedgeExtent& extent, const LightBox& box);

@@ -5,37 +5,66 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scene/bounds.hpp"
+
 namespace halfshadow::techniques {
 namespace {
 
-void addPiece(const std::vector<glm::vec3>& polygon, std::size_t first, std::size_t count,
+/// Single precision keeps this much of a coordinate, less what arithmetic with it takes.
+constexpr double kRounding = 1.0 / (1 << 22);
+
+/// A caster's step: its grid has kGridSteps over what its loops reach, but none that single precision would
+/// not tell apart so far from the anchor.
+double stepOf(const scene::LightSilhouettes& silhouettes, const scene::LightSilhouettes::Caster& caster,
+              const glm::dvec3& units) {
+  scene::Bounds bounds;
+  for (std::uint32_t l = caster.firstLoop; l < caster.firstLoop + caster.loopCount; ++l) {
+    const scene::LightSilhouettes::Loop& loop = silhouettes.loops[l];
+    for (std::uint32_t i = 0; i < loop.count; ++i)
+      bounds.include((silhouettes.points[loop.first + i] - glm::dvec3(0, 0, 1)) / units);
+  }
+  if (bounds.empty()) return 1.0;
+  const auto largest = [](const glm::dvec3& v) { return std::max({v.x, v.y, v.z}); };
+  const double size = largest(bounds.high - bounds.low);
+  const double away = largest(glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
+  return std::exp2(std::ceil(std::log2(std::max({size / kGridSteps, away * kRounding, 1e-300}))));
+}
+
+/// The nearest point of the grid that is before the light.
+glm::dvec3 onGrid(const glm::dvec3& abh, const glm::dvec3& units, double step) {
+  const glm::dvec3 anchor(0, 0, 1), grid = units * step;
+  glm::dvec3 steps = glm::round((abh - anchor) / grid);
+  steps.z = std::max(steps.z, std::floor(-1.0 / step) + 1.0);
+  return anchor + steps * grid;
+}
+
+void addPiece(const std::vector<glm::dvec3>& polygon, std::size_t first, std::size_t count, double step,
               WedgePieces& result) {
-  const glm::dvec3 grid(result.stepAB, result.stepAB, result.stepH);
   WedgePiece piece{.firstVertex = static_cast<std::uint32_t>(result.vertices.size()),
-                   .vertexCount = static_cast<std::uint32_t>(count)};
+                   .vertexCount = static_cast<std::uint32_t>(count),
+                   .step = step};
   for (std::size_t i = 0; i < count; ++i) {
-    glm::dvec3 vertex = glm::round(glm::dvec3(polygon[(first + i) % polygon.size()]) / grid) * grid;
-    vertex.z = std::max(vertex.z, result.stepH);
-    result.vertices.emplace_back(vertex);
+    const glm::dvec3& vertex = polygon[(first + i) % polygon.size()];
+    result.vertices.push_back(vertex);
     piece.extent.include(vertex);
   }
   result.pieces.push_back(piece);
 }
 
 /// Runs of edges become pieces closed by their chords; the chords are a shorter loop, cut in the same way.
-void cutLoop(std::vector<glm::vec3> loop, WedgePieces& result) {
+void cutLoop(std::vector<glm::dvec3> loop, double step, WedgePieces& result) {
   while (loop.size() > kPieceVertices) {
     constexpr std::size_t kEdges = kPieceVertices - 1;
     const std::size_t runs = (loop.size() + kEdges - 1) / kEdges;
-    std::vector<glm::vec3> chords;
+    std::vector<glm::dvec3> chords;
     for (std::size_t run = 0; run < runs; ++run) {
       const std::size_t first = run * loop.size() / runs, last = (run + 1) * loop.size() / runs;
-      if (last - first >= 2) addPiece(loop, first, last - first + 1, result);
+      if (last - first >= 2) addPiece(loop, first, last - first + 1, step, result);
       chords.push_back(loop[first]);
     }
     loop = std::move(chords);
   }
-  if (loop.size() >= 3) addPiece(loop, 0, loop.size(), result);
+  if (loop.size() >= 3) addPiece(loop, 0, loop.size(), step, result);
 }
 
 /// Casters of several pieces are added up before they are combined, a batch at a time.
@@ -86,20 +115,27 @@ bool WedgeExtent::meetsBetween(const WedgeExtent& other, double from, double end
   return !apart(*this, other) && !apart(other, *this);
 }
 
-void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest, WedgePieces& result) {
+glm::dvec3 wedgeUnits(const scene::LightPlane& plane) {
+  const double unit = glm::length(plane.toUnitHeight);
+  const auto power = [](double ratio) { return std::exp2(std::round(std::log2(ratio))); };
+  return {power(unit / glm::length(plane.halfU)), power(unit / glm::length(plane.halfV)), 1.0};
+}
+
+void makeWedgePieces(const scene::LightSilhouettes& silhouettes, const glm::dvec3& units, double farthest,
+                     WedgePieces& result) {
   result.vertices.clear();
   result.pieces.clear();
   result.casters.clear();
-  double outermost = 1.0;
-  for (const glm::vec3& point : silhouettes.points)
-    outermost = std::max<double>({outermost, std::abs(point.x), std::abs(point.y)});
-  result.stepAB = std::exp2(std::ceil(std::log2(outermost / kGridSteps)));
-  result.stepH = 1.0 / kGridSteps;
+  result.units = units;
   for (const scene::LightSilhouettes::Caster& caster : silhouettes.casters) {
-    WedgeCaster made{.object = caster.object, .firstPiece = static_cast<std::uint32_t>(result.pieces.size())};
+    WedgeCaster made{.object = caster.object,
+                     .firstPiece = static_cast<std::uint32_t>(result.pieces.size()),
+                     .step = stepOf(silhouettes, caster, units)};
     for (std::uint32_t l = caster.firstLoop; l < caster.firstLoop + caster.loopCount; ++l) {
       const auto first = silhouettes.points.begin() + silhouettes.loops[l].first;
-      cutLoop({first, first + silhouettes.loops[l].count}, result);
+      std::vector<glm::dvec3> loop(first, first + silhouettes.loops[l].count);
+      for (glm::dvec3& vertex : loop) vertex = onGrid(vertex, units, made.step);
+      cutLoop(std::move(loop), made.step, result);
     }
     made.pieceCount = static_cast<std::uint32_t>(result.pieces.size()) - made.firstPiece;
     for (std::uint32_t p = 0; p < made.pieceCount; ++p)

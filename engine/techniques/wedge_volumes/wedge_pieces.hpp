@@ -12,9 +12,8 @@
 
 namespace halfshadow::techniques {
 
-/// Steps of the grid from the light's axis to the outermost vertex, and from the light to the farthest
-/// receiver.
-inline constexpr double kGridSteps = 131072.0;
+/// Steps of a caster's grid over its size: whole numbers that interpolation brings to fragments unharmed.
+inline constexpr double kGridSteps = 262144.0;
 
 /// Vertices of one piece: what a fragment evaluates at once.
 inline constexpr int kPieceVertices = 8;
@@ -42,27 +41,36 @@ struct WedgeExtent {
 /// between them are run through once each way.
 struct WedgePiece {
   std::uint32_t firstVertex = 0, vertexCount = 0;
+  double step = 1.0;  ///< its caster's
   WedgeExtent extent;
+  /// The caster's size, about: receivers that are a thousandth of it above all vertices need no clipping.
+  double size() const { return kGridSteps * step; }
 };
 
 struct WedgeCaster {
   std::uint32_t object = 0;
   std::uint32_t firstPiece = 0, pieceCount = 0;
   std::uint32_t batch = 0;  ///< casters of one batch never shadow the same receiver
+  double step = 1.0;        ///< of its grid, a power of two
   WedgeExtent extent;
 };
 
 struct WedgePieces {
-  std::vector<glm::vec3> vertices;  ///< (a, b, h), whole multiples of the grid's steps
-  /// Powers of two: a step of a and b, a step of h. Neighbouring pieces and casters share it, so that
-  /// vertices which coincide do so exactly whatever reads them.
-  double stepAB = 1.0, stepH = 1.0;
+  /// (a, b, h), of which (a, b, h - 1) are whole multiples of the caster's step times `units`: pieces share
+  /// their vertices exactly, whatever reads them. The step follows from the caster's size, or from the
+  /// rounding of single precision where that is more.
+  std::vector<glm::dvec3> vertices;
+  glm::dvec3 units{1.0};  ///< powers of two: lengths of a, b and h that are about the same in the world
   std::vector<WedgePiece> pieces;
   std::vector<WedgeCaster> casters;  ///< connected parts with a silhouette
   std::uint32_t batchCount = 0;      ///< of casters with more than one piece
 };
 
+/// For WedgePieces::units.
+glm::dvec3 wedgeUnits(const scene::LightPlane& plane);
+
 /// Replaces the content of `result`. `farthest`: largest height of a receiver.
-void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest, WedgePieces& result);
+void makeWedgePieces(const scene::LightSilhouettes& silhouettes, const glm::dvec3& units, double farthest,
+                     WedgePieces& result);
 
 }  // namespace halfshadow::techniques

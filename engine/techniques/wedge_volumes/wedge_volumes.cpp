@@ -8,19 +8,21 @@
 #include <cstddef>
 
 #include "planner/frame_planner.hpp"
+#include "scene/light_anchor.hpp"
 #include "techniques/wedge_volumes/volume_boxes.hpp"
 #include "techniques/wedge_volumes/wedge_bounds.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-constexpr double kFarthest = kFarthestHeight, kBeyondReceiver = kFarthestHeight - 1.0;
-/// Nearest height of a caster, relative to the farthest receiver's: what reaches behind the light is cut
-/// here.
-constexpr double kMinHeight = 1e-3;
-/// Lights smaller than this share of the scene's depth have penumbrae below a pixel.
-constexpr double kMinHalfLength = 5e-4;
+/// Volumes end so much farther from the light than the receivers that they are for.
+constexpr double kBeyondReceiver = 1.01;
+/// Nearest height of a caster, in units of the nearest caster's distance: what reaches behind the light is
+/// cut here.
+constexpr double kMinHeight = 1e-6;
+/// Half a side of the smallest light, in the same unit: penumbrae that no picture shows.
+constexpr double kMinHalfLength = 1e-5;
 
-/// Beyond 1 / (1/h - this) all vertices of a piece are nearer to the light than the receiver:
+/// A receiver so far behind all vertices of a piece, in units of its size, needs no clipping:
 /// HS_WEDGE_ALL_NEAR.
 constexpr double kAllNear = 1e-3, kAllNearWithoutHighp = 4e-3;
 
@@ -32,40 +34,44 @@ constexpr std::size_t kPiecesPerDraw = volumesPerDraw(kCorners);
 /// A whole number of steps that a piece's centre is rounded to: wedge_piece.glsl.
 constexpr double kCenterSteps = 64.0;
 /// Steps of the grid that are one unit without highp: a thousand units hold every caster.
-constexpr double kStepsWithoutHighp = 128.0;
+constexpr double kStepsWithoutHighp = kGridSteps / 1024.0;
 
 struct Vertex {
   glm::vec3 corner;
   /// Of the piece, in steps of the grid from the centre.
   std::array<float, kPieceVertices> a, b, h;
   glm::vec3 center;  ///< in units of kCenterSteps
+  float step;        ///< of the grid
 };
 constexpr int kStride = sizeof(Vertex);
 
-double farthestReceiver(const LightFrame& frame) {
-  const glm::dvec3 normal = scene::emissionDirection(frame.light);
+double farthestReceiver(const LightFrame& frame, const scene::LightPlane& plane) {
   double farthest = 0.0;
   for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
     for (const DrawItem& item : items) {
       for (const glm::dvec3& corner : item.boundsWorld.corners()) {
-        farthest = std::max(farthest, glm::dot(normal, corner - frame.light.centerWorld));
+        farthest = std::max(farthest, plane.fromWorld(corner).z);
       }
     }
   }
   return farthest;
 }
 
-std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& unit, double allNear,
-                                 double reach, std::span<const double> ends) {
+std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, std::span<const double> ends) {
+  const WedgePieces& pieces = volumes.pieces;
+  const glm::dvec3 anchor(0, 0, 1);
+  const VolumeReach reach{.end = volumes.end(), .sideways = volumes.reach};
   std::vector<Vertex> stream;
   stream.reserve(pieces.pieces.size() * kCorners);
   for (std::size_t p = 0; p < pieces.pieces.size(); ++p) {
     const WedgePiece& piece = pieces.pieces[p];
     Vertex vertex;
+    const double step = volumes.stepsPerUnit * piece.step;
+    vertex.step = static_cast<float>(step);
     const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
       const std::size_t index = piece.firstVertex + std::min<std::size_t>(i, piece.vertexCount - 1);
-      return glm::dvec3(pieces.vertices[index]) / unit;
+      return (pieces.vertices[index] - anchor) / (step * pieces.units);
     };
     const glm::dvec3 center = glm::round(0.5 * (steps(0) + steps(piece.vertexCount / 2)) / kCenterSteps);
     vertex.center = center;
@@ -74,17 +80,17 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
       vertex.a[i] = relative.x, vertex.b[i] = relative.y, vertex.h[i] = relative.z;
     }
     const double nearest = piece.extent.nearest;
-    const double end = ends.empty() ? kFarthest : std::min(ends[p] + kBeyondReceiver, kFarthest);
+    const double end = ends.empty() ? reach.end : std::min(kBeyondReceiver * ends[p], reach.end);
     if (end <= nearest) {
       // No receiver: a volume without sides.
-      vertex.corner = glm::dvec3(piece.extent.low(nearest), nearest);
+      vertex.corner = glm::dvec3(piece.extent.low(nearest), nearest) - anchor;
       stream.insert(stream.end(), kCorners, vertex);
       continue;
     }
-    const double last = std::min(piece.extent.farthest + allNear, end);
+    const double last = std::min(piece.extent.farthest + allNear * piece.size(), end);
     for (const double h : {nearest, last, end}) {
-      for (const glm::dvec3& corner : volumeCorners(piece.extent, h, {.end = kFarthest, .sideways = reach})) {
-        vertex.corner = corner;
+      for (const glm::dvec3& corner : volumeCorners(piece.extent, h, reach)) {
+        vertex.corner = corner - anchor;
         stream.push_back(vertex);
       }
     }
@@ -93,14 +99,14 @@ std::vector<Vertex> vertexStream(const WedgePieces& pieces, const glm::dvec3& un
 }
 
 /// Of the volumes' lengths, the share that lies before their ends.
-double lengthKept(const WedgePieces& pieces, std::span<const double> ends) {
+double lengthKept(const WedgeVolumes& volumes, std::span<const double> ends) {
   double kept = 0.0, whole = 0.0;
   for (std::size_t i = 0; i < ends.size(); ++i) {
-    const double nearest = pieces.pieces[i].extent.nearest;
+    const double nearest = volumes.pieces.pieces[i].extent.nearest;
     kept += std::max(ends[i] - nearest, 0.0);
-    whole += std::max(kFarthest - nearest, 0.0);
+    whole += std::max(volumes.end() - nearest, 0.0);
   }
-  return kept / std::max(whole, 1e-9);
+  return kept / std::max(whole, 1e-300);
 }
 
 std::uint64_t keyOf(const LightFrame& frame, double farthest, double reach) {
@@ -124,7 +130,7 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
       bindings[i + 1] = {kVectors[i], &volumes.vertices,   4, gl::AttributeType::float32,
                          kStride,     offset + 12 + 16 * i};
     }
-    bindings[7] = {VertexAttribute::texcoord,  &volumes.vertices, 3,
+    bindings[7] = {VertexAttribute::texcoord,  &volumes.vertices, 4,
                    gl::AttributeType::float32, kStride,           offset + offsetof(Vertex, center)};
     encoder.draw(state, {.attributes = bindings,
                          .indices = &volumes.indices,
@@ -137,19 +143,21 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
 
 const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
-  const double farthest = std::max(farthestReceiver(frame), 1e-9);
-  const scene::LightPlane plane(frame.light, farthest, kMinHalfLength * farthest);
-  const double reach = sidewaysReach(frame, plane);
+  std::vector<scene::Bounds> bounds;
+  for (const DrawItem& caster : frame.casters) bounds.push_back(caster.boundsWorld);
+  const glm::dvec3 toAnchor = scene::toAnchor(frame.light, bounds);
+  const scene::LightPlane plane(frame.light, toAnchor, kMinHalfLength * glm::length(toAnchor));
+  const double farthest = farthestReceiver(frame, plane), reach = sidewaysReach(frame, plane);
   const std::uint64_t key = keyOf(frame, farthest, reach);
   if (volumes.contentKey == key) return &volumes;
   volumes.contentKey = 0;
   volumes.plane = plane;
+  volumes.farthest = farthest;
   volumes.reach = reach;
-  const std::vector<scene::PlacedCaster> casters = placedCasters(frame);
   // What a caster covers at all counts once, however often it covers it.
   const scene::LightSilhouettes& silhouettes =
-      volumes.silhouettes.update(casters, volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
-  makeWedgePieces(silhouettes, kFarthest, volumes.pieces);
+      volumes.silhouettes.update(placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+  makeWedgePieces(silhouettes, wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
   volumes.contentKey = key;
@@ -161,20 +169,19 @@ Status WedgeVolumeCache::upload(const LightFrame& frame, std::span<const double>
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
   const std::uint64_t key = planner::combineKeys(volumes.contentKey, endsKey);
   volumes.trimmed = !ends.empty();
-  volumes.small = volumes.trimmed && lengthKept(volumes.pieces, ends) < 0.5;
+  volumes.small = volumes.trimmed && lengthKept(volumes, ends) < 0.5;
   if (volumes.streamKey == key || volumes.pieces.pieces.empty()) return {};
   volumes.streamKey = 0;
   const bool highp = frame.capabilities.has(gl::Capability::highp);
-  const WedgePieces& pieces = volumes.pieces;
-  volumes.unit = glm::dvec3(pieces.stepAB, pieces.stepAB, pieces.stepH) * (highp ? 1.0 : kStepsWithoutHighp);
-  const std::vector<Vertex> stream =
-      vertexStream(pieces, volumes.unit, highp ? kAllNear : kAllNearWithoutHighp, volumes.reach, ends);
+  volumes.stepsPerUnit = highp ? 1.0 : kStepsWithoutHighp;
+  const std::vector<Vertex> stream = vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, ends);
   if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                                std::as_bytes(std::span(stream)));
       !s) {
     return s;
   }
-  if (Status s = uploadVolumeIndices(frame.context, volumes.indices, pieces.pieces.size(), kCorners); !s)
+  if (Status s = uploadVolumeIndices(frame.context, volumes.indices, volumes.pieces.pieces.size(), kCorners);
+      !s)
     return s;
   volumes.streamKey = key;
   return {};
@@ -191,12 +198,16 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
                       WedgePart part, gl::DrawState state) {
   gl::Encoder& encoder = context.encoder;
   const scene::LightPlane& plane = volumes.plane;
-  bindReceiverPosition(context, program, depth, receiverRays(view, depth, plane.axes, plane.centerWorld));
-  program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight(plane)));
-  const glm::dvec3& unit = volumes.unit;
-  program.set(encoder.context(), "u_pieceGrid", glm::vec4(unit.x, unit.z, 1.0 / unit.x, 1.0 / unit.z));
+  bindReceiverPosition(context, program, depth,
+                       receiverRays(view, depth, plane.axes, plane.unitHeightWorld()));
+  program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromAnchor(plane)));
+  const glm::dvec3& units = volumes.pieces.units;
+  const double sizeUnits = kGridSteps / volumes.stepsPerUnit;
+  program.set(encoder.context(), "u_pieceGrid", glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
+  program.set(encoder.context(), "u_pieceScale",
+              glm::vec4(units.x / units.y, units.y / sizeUnits, 0.0, 0.0));
   const auto hull = eyeHull(view, plane);
-  const VolumeReach reach{.end = kFarthest, .sideways = volumes.reach};
+  const VolumeReach reach{.end = volumes.end(), .sideways = volumes.reach};
   const bool small = part == WedgePart::beside || volumes.small;
   if (small) {
     // Few receivers lie in these volumes, and most of the screen behind them: the farther sides reject it.

@@ -11,18 +11,18 @@
 
 namespace halfshadow::techniques {
 
-/// Volumes end a little behind the farthest receiver, so that it lies inside whatever rounding does.
-inline constexpr double kFarthestHeight = 1.01;
-
-/// The wedges of one light. Heights are in units of the farthest receiver's distance from the light's plane.
+/// The wedges of one light.
 struct WedgeVolumes {
   std::uint64_t contentKey = 0;
   scene::LightPlane plane;
+  double farthest = 1.0;  ///< largest height of a receiver
+  /// Volumes end a little behind the farthest receiver, so that it lies inside whatever rounding does.
+  double end() const { return 1.01 * farthest; }
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   scene::LightSilhouetteCache silhouettes;
   WedgePieces pieces;
   bool lightEnclosed = false;  ///< a closed caster stands around the light's centre: nothing outside is lit
-  glm::dvec3 unit{1.0};  ///< of a, b and h in the vertex stream: the grid's steps where fragments have highp
+  double stepsPerUnit = 1.0;  ///< of the vertex stream: 1 where fragments have highp
   std::uint64_t streamKey = 0;  ///< of what the buffers hold
   bool trimmed = false;         ///< volumes end before the farthest receiver
   bool small = false;           ///< by more than half of their length, on average

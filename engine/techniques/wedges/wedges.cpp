@@ -144,7 +144,7 @@ class ProbabilisticWedges final : public Technique {
     std::vector<gl::Rect> rects;
     for (const WedgeCaster& caster : volumes.pieces.casters) {
       if (caster.pieceCount < 2 || caster.batch != batch) continue;
-      const auto corners = volumeHull(caster.extent, caster.extent.nearest, kFarthestHeight);
+      const auto corners = volumeHull(caster.extent, caster.extent.nearest, volumes.end());
       if (const auto rect = screenBounds(corners, clipFromLight, view.width, view.height))
         rects.push_back(*rect);
     }

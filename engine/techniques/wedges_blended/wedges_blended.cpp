@@ -11,14 +11,13 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Whether some receiver can lie in the penumbrae of two casters. Heights are in units of the farthest
-/// receiver's.
-bool castersMeet(const WedgePieces& pieces) {
+/// Whether some receiver can lie in the penumbrae of two casters.
+bool castersMeet(const WedgeVolumes& volumes) {
   std::vector<const WedgeCaster*> byA;
-  for (const WedgeCaster& caster : pieces.casters) byA.push_back(&caster);
+  for (const WedgeCaster& caster : volumes.pieces.casters) byA.push_back(&caster);
   for (std::size_t i = 0; i < byA.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
-      if (byA[i]->extent.meets(byA[k]->extent, 1.0)) return true;
+      if (byA[i]->extent.meets(byA[k]->extent, volumes.farthest)) return true;
     }
   }
   return false;
@@ -95,7 +94,7 @@ class WedgesBlended final : public Technique {
     const WedgeVolumes& volumes = routes_.volumes(frame);
     Light& light = lights_[frame.lightIndex];
     if (light.meetKey != volumes.contentKey) {
-      light.meet = castersMeet(volumes.pieces);
+      light.meet = castersMeet(volumes);
       light.meetKey = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
