@@ -23,8 +23,8 @@ void appendLoop(const std::vector<glm::dvec3>& loop, Turn turn, LightSilhouettes
       {static_cast<std::uint32_t>(result.points.size()), static_cast<std::uint32_t>(loop.size())});
   const auto add = [&](const glm::dvec3& p) {
     result.points.emplace_back(p);
-    caster.low = glm::min(caster.low, result.points.back());
-    caster.high = glm::max(caster.high, result.points.back());
+    caster.low = glm::min(caster.low, glm::vec3(p));
+    caster.high = glm::max(caster.high, glm::vec3(p));
   };
   if (turn == Turn::reverse) {
     std::for_each(loop.rbegin(), loop.rend(), add);

@@ -51,7 +51,7 @@ class LayerSplitter {
 
  private:
   struct FlatLoop {
-    std::vector<glm::vec3> points;
+    std::vector<glm::dvec3> points;
     double area = 0.0;  ///< of the projection
   };
   struct Layer {
@@ -85,8 +85,8 @@ class LayerSplitter {
       const LightSilhouettes::Loop& loop = source_.loops[l];
       const auto first = static_cast<std::uint32_t>(strands_.size());
       for (std::uint32_t i = 0; i < loop.count; ++i) {
-        const glm::dvec3 a(source_.points[loop.first + i]);
-        const glm::dvec3 b(source_.points[loop.first + (i + 1) % loop.count]);
+        const glm::dvec3 a = source_.points[loop.first + i];
+        const glm::dvec3 b = source_.points[loop.first + (i + 1) % loop.count];
         const double x = jitter(), y = jitter();
         strands_.push_back({a, b, flat(a) + glm::dvec2(x, y), {}, first + (i + 1) % loop.count});
       }
@@ -173,7 +173,7 @@ class LayerSplitter {
 
   /// `c`: place of the crossing that ends the piece (the strand's end when it is behind its last).
   void traceFrom(std::uint32_t s, std::uint32_t c, std::vector<Layer>& layers) {
-    std::vector<glm::vec3> loop;
+    std::vector<glm::dvec3> loop;
     double area = 0.0, longest = -1.0;
     glm::dvec2 probe(0.0), before(0.0), origin(0.0);
     const auto add = [&](const glm::dvec3& p) {
@@ -224,10 +224,10 @@ class LayerSplitter {
     for (const FlatLoop& loop : layer.loops) {
       out.loops.push_back(
           {static_cast<std::uint32_t>(out.points.size()), static_cast<std::uint32_t>(loop.points.size())});
-      for (const glm::vec3& p : loop.points) {
+      for (const glm::dvec3& p : loop.points) {
         out.points.push_back(p);
-        entry.low = glm::min(entry.low, p);
-        entry.high = glm::max(entry.high, p);
+        entry.low = glm::min(entry.low, glm::vec3(p));
+        entry.high = glm::max(entry.high, glm::vec3(p));
       }
     }
     out.casters.push_back(entry);

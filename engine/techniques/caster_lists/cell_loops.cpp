@@ -7,8 +7,9 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Shares of the receivers' range of reciprocal heights; beyond it a vertex is farther than every receiver.
-constexpr float kFarMargin = 1e-4f;
+/// Beyond this share of the receivers' range of reciprocal heights, and of their rounding, a vertex is farther
+/// than every receiver.
+constexpr float kFarMargin = 1e-3f, kFarRounding = 1e-5f;
 
 /// Faces of a caster up to which it counts as coarse. Convex casters of more, seen from the centre of a
 /// quarter of the light, are wrong by at most .034 on their own surfaces (762 faces), at a third of the
@@ -93,7 +94,8 @@ int windingNumber(const std::vector<glm::vec3>& loop, const SubLight& light, con
 }
 
 float farEnd(const TangentBox& receivers) {
-  return receivers.iLow * (1.0f - kFarMargin);
+  return receivers.iLow - kFarMargin * (receivers.iHigh - receivers.iLow) -
+         kFarRounding * std::max(std::abs(receivers.iLow), std::abs(receivers.iHigh));
 }
 
 enum class LoopKind { whole, oneSided };
@@ -173,7 +175,8 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 }
 
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
-                      std::span<const scene::PlacedCaster> casters, const SubLight& light) {
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light,
+                      const ListSpace& space) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
   std::uint32_t layersLeft = 0;
@@ -187,7 +190,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     for (std::uint32_t l = source.firstLoop; l < source.firstLoop + source.loopCount; ++l) {
       loop.clear();
       for (std::uint32_t k = 0; k < silhouettes.loops[l].count; ++k) {
-        loop.emplace_back(tangentPoint(glm::dvec3(silhouettes.points[silhouettes.loops[l].first + k])));
+        loop.emplace_back(space.tangentPoint(silhouettes.points[silhouettes.loops[l].first + k]));
       }
       caster.addLoop(loop);
     }

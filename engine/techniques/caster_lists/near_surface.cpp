@@ -9,7 +9,7 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Shares of the lift within which single precision may put a fragment on either side of a plane.
+/// Share of the lift within which rounding may put a fragment on either side of a plane.
 constexpr double kUnsure = 0.25;
 /// Clusters whose normals lie within 18 degrees of their mean count as even: a chord across one is its
 /// contour to a twentieth of its size.
@@ -40,22 +40,48 @@ int sideOf(const glm::dvec4& plane, const TangentBox& box) {
   return judge(glm::dot(linear, glm::dvec3(box.center())) + plane.z, glm::dot(glm::abs(linear), reach));
 }
 
+glm::dvec3 linearOf(const glm::dvec4& plane) {
+  return {plane.x, plane.y, plane.w};
+}
+double valueAt(const glm::dvec4& plane, const glm::dvec3& ti) {
+  return glm::dot(linearOf(plane), ti) + plane.z;
+}
+
+/// Whether the facet lies in the patch's plane, to what single precision tells.
+bool isCoplanar(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverPatch& patch) {
+  const glm::dvec3 linear = glm::abs(linearOf(patch.plane));
+  const double patchRounding = glm::dot(linear, glm::abs(patch.lift));
+  return std::ranges::all_of(facet.vertex, [&](std::uint32_t v) {
+    const glm::dvec3 point(surface.points[v]);
+    const double rounding = patchRounding + kPlaceRounding * glm::dot(linear, glm::abs(point));
+    return std::abs(valueAt(patch.plane, point)) <= kUnsure * rounding;
+  });
+}
+
 /// The same for lifted fragments of patches, one by one.
-int sideOf(const NearSurface::Facet& facet, bool closed, const ReceiverSet& receivers) {
+int sideOf(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverSet& receivers) {
   const glm::dvec4& plane = facet.plane;
-  int side = 2;
+  const glm::dvec3 linear = linearOf(plane);
+  int side = kOwnFacet;
   for (const ReceiverPatch& patch : receivers.patches) {
-    const double lifted = receivers.lift * glm::dot(facet.normalWorld, patch.normalWorld);
-    const double unsure = kUnsure * receivers.lift;
-    const double least = closed ? lifted - unsure : -std::abs(lifted) - unsure;
-    const double most = closed ? lifted + unsure : std::abs(lifted) + unsure;
+    const double lifted = glm::dot(linear, patch.lift);
+    const double unsure = kUnsure * glm::dot(glm::abs(linear), glm::abs(patch.lift));
+    const double least = patch.eitherSide ? -std::abs(lifted) - unsure : lifted - unsure;
+    const double most = patch.eitherSide ? std::abs(lifted) + unsure : lifted + unsure;
+    const auto vote = [&](int here) {
+      const bool agrees = here != 0 && (side == kOwnFacet || side == here);
+      side = agrees ? here : 0;
+      return agrees;
+    };
+    if (isCoplanar(surface, facet, patch)) {
+      if (!patch.eitherSide && !vote(lifted > 0.0 ? 1 : -1)) return 0;
+      continue;
+    }
     for (int corner = 0; corner < 4; ++corner) {
       const glm::dvec2 t(corner & 1 ? patch.high.x : patch.low.x, corner & 2 ? patch.high.y : patch.low.y);
       const double i = std::clamp(patch.base + glm::dot(patch.gradient, t), patch.iLow, patch.iHigh);
-      const double value = plane.x * t.x + plane.y * t.y + plane.z + plane.w * i;
-      const int here = value + least * i > 0.0 ? 1 : value + most * i < 0.0 ? -1 : 0;
-      if (here == 0 || (side != 2 && side != here)) return 0;
-      side = here;
+      const double value = valueAt(plane, {t, i});
+      if (!vote(value + least > 0.0 ? 1 : value + most < 0.0 ? -1 : 0)) return 0;
     }
   }
   return side;
@@ -66,26 +92,24 @@ int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverS
   if (receivers.patches.empty()) return sideOf(facet.plane, receivers.box);
   if (surface.sides.size() < surface.facets.size()) surface.sides.resize(surface.facets.size());
   NearSurface::Side& known = surface.sides[f];
-  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(facet, surface.closed, receivers)};
+  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(surface, facet, receivers)};
   return known.side;
 }
 
 /// Whether all of the light's part lies in front of every patch: then what is behind all of them hides
 /// nothing of it from any.
 bool lightIsBefore(const ReceiverSet& receivers, const SubLight& light) {
-  const scene::LightPlane& plane = receivers.plane;
   return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
-    const double u = glm::dot(patch.normalWorld, plane.halfU), v = glm::dot(patch.normalWorld, plane.halfV);
-    return light.center.x * u + light.center.y * v - light.half * (std::abs(u) + std::abs(v)) >
-           patch.planeDistance + receivers.lift;
+    return !patch.eitherSide && sideOf(patch.plane, light) > 0;
   });
 }
 
 bool behindAll(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverSet& receivers) {
-  const double highest = (1.0 - kUnsure) * receivers.lift;
   return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
+    const glm::dvec3 linear = glm::abs(linearOf(patch.plane));
+    const double highest = (1.0 - kUnsure) * glm::dot(linear, glm::abs(patch.lift));
     return std::ranges::all_of(facet.vertex, [&](std::uint32_t v) {
-      return glm::dot(patch.normalWorld, surface.pointsWorld[v]) - patch.planeDistance < highest;
+      return valueAt(patch.plane, glm::dvec3(surface.points[v])) < highest;
     });
   });
 }
@@ -160,7 +184,8 @@ void measurePatches(NearSurface& surface) {
 /// A chord stands for a patch's contour where no receiver is near enough to tell them apart.
 bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
   const auto toWorld = [&](const glm::dvec3& ti) {
-    return receivers.plane.toWorld({ti.x / ti.z, ti.y / ti.z, 1.0 / ti.z}) - receivers.plane.centerWorld;
+    const scene::LightPlane& plane = receivers.space.plane;
+    return plane.toWorld(receivers.space.lightPoint(ti)) - plane.centerWorld;
   };
   const TangentBox& box = receivers.box;
   const glm::dvec3 middle = toWorld(glm::dvec3(box.center()));
@@ -169,8 +194,9 @@ bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
 }
 }  // namespace
 
-NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const scene::LightPlane& plane,
+NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
                         double minHeight) {
+  const scene::LightPlane& plane = space.plane;
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
   const scene::CasterPart& own = mesh.parts()[part];
   const glm::dmat3 linear(caster.worldFromObject);
@@ -191,7 +217,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
         const glm::dvec3 abh = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
         if (abh.z < minHeight) return {};
         pointOf[v] = static_cast<std::uint32_t>(surface.points.size());
-        surface.points.emplace_back(tangentPoint(abh));
+        surface.points.emplace_back(space.tangentPoint(abh));
         surface.pointsWorld.push_back(plane.toWorld(abh) - plane.centerWorld);
       }
       facet.vertex[k] = pointOf[v];
@@ -203,9 +229,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
     // them.
     const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
     const glm::dvec3 normal = cross / std::max(glm::length(cross), 1e-300);
-    facet.normalWorld = normal;
-    facet.plane = {glm::dot(normal, plane.halfU), glm::dot(normal, plane.halfV),
-                   plane.heightUnit * glm::dot(normal, plane.normal), -glm::dot(normal, at(0))};
+    facet.plane = space.planeThrough(normal, at(0));
     surface.facets.push_back(facet);
   }
   for (const scene::FaceCluster& cluster : mesh.clusters().subspan(own.firstCluster, own.clusterCount)) {
@@ -238,7 +262,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
 
 const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part) {
   const auto [found, isNew] = made_.try_emplace({object, part});
-  if (isNew) found->second = nearSurface(casters_[object], part, plane_, minHeight_);
+  if (isNew) found->second = nearSurface(casters_[object], part, space_, minHeight_);
   return found->second;
 }
 
@@ -262,8 +286,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
                       std::vector<std::uint32_t>& result) {
   result.clear();
   const OuterSides outer(light, receivers.box);
-  const bool lightBefore = surface.closed && choice == FacetChoice::asReceiversSee &&
-                           !receivers.patches.empty() && lightIsBefore(receivers, light);
+  const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
+                           lightIsBefore(receivers, light);
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
@@ -275,6 +299,7 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
     if (surface.closed && choice == FacetChoice::asLightSees && !sees(facet.plane, light)) continue;
     if (lightBefore && behindAll(surface, facet, receivers)) continue;
     const int receiverSide = sideOfReceivers(surface, f, receivers);
+    if (receiverSide == kOwnFacet) continue;
     // No ray passes a plane that has both its ends on one side.
     if (lightSide * receiverSide > 0) continue;
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;

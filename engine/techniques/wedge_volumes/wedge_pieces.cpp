@@ -91,7 +91,7 @@ void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest
   result.pieces.clear();
   result.casters.clear();
   double outermost = 1.0;
-  for (const glm::vec3& point : silhouettes.points)
+  for (const glm::dvec3& point : silhouettes.points)
     outermost = std::max<double>({outermost, std::abs(point.x), std::abs(point.y)});
   result.stepAB = std::exp2(std::ceil(std::log2(outermost / kGridSteps)));
   result.stepH = 1.0 / kGridSteps;
@@ -99,7 +99,7 @@ void makeWedgePieces(const scene::LightSilhouettes& silhouettes, double farthest
     WedgeCaster made{.object = caster.object, .firstPiece = static_cast<std::uint32_t>(result.pieces.size())};
     for (std::uint32_t l = caster.firstLoop; l < caster.firstLoop + caster.loopCount; ++l) {
       const auto first = silhouettes.points.begin() + silhouettes.loops[l].first;
-      cutLoop({first, first + silhouettes.loops[l].count}, result);
+      cutLoop(std::vector<glm::vec3>(first, first + silhouettes.loops[l].count), result);
     }
     made.pieceCount = static_cast<std::uint32_t>(result.pieces.size()) - made.firstPiece;
     for (std::uint32_t p = 0; p < made.pieceCount; ++p)
