@@ -63,6 +63,16 @@ FacetPlanes facetPlanes(const ListSpace& space, const glm::dmat4& worldFromObjec
           glm::vec4(scale * one)};
 }
 
+/// Whether faces of the receiver may be seen from behind: it has openings, or the near plane opens it.
+bool maySeeBehind(const View& view, const DrawItem& item) {
+  if (!item.closed) return true;
+  return hiddenFaces(item, view.eyeWorld, view.nearReach) == gl::Cull::none &&
+         std::ranges::any_of(item.boundsWorld.corners(), [&](const glm::dvec3& corner) {
+           const glm::dvec4 clip = view.clipFromWorld * glm::dvec4(corner, 1.0);
+           return clip.z < -clip.w;
+         });
+}
+
 /// Where a box lies in (t, i), and its least i.
 struct Reach {
   TangentRect rect;
@@ -146,7 +156,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     for (const DrawItem& item : frame.receivers) {
       if (request.receivers == ListedReceivers::casting && !item.casts) continue;
       Receiver& cached = receivers_[item.geometry];
-      const bool seenFromBehind = hiddenFaces(item, frame.view.eyeWorld, frame.view.nearReach) == gl::Cull::none;
+      const bool seenFromBehind = maySeeBehind(frame.view, item);
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
         cached.revision = item.revision;
         cached.seenFromBehind = seenFromBehind;

@@ -37,7 +37,8 @@ EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
   const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
   Range fine;
   for (const CellRecord& record : records) {
-    if (record.ti.z <= fineUpTo) fine.include(record.ti);
+    // Receivers may stand on the facets of one-sided loops, off by no more than a step.
+    if (record.ti.z <= fineUpTo || record.oneSided) fine.include(record.ti);
   }
   EncodedLists::Placed placed;
   placed.center = 0.5f * (fine.low + fine.high);
