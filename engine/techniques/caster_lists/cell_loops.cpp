@@ -27,6 +27,88 @@ void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>&
   }
 }
 
+/// Vertices of a loop that lie outside by more than kFarOutside times the receivers' size and what the light
+/// spreads over at their height are cut off, kOutside sizes beyond the side: stored with few bits, they would
+/// move the edges that lead to them.
+constexpr float kFarOutside = 16.0f, kOutside = 4.0f;
+
+bool isPlanar(std::span<const glm::vec3> loop) {
+  const glm::dvec3 origin(loop[0]);
+  glm::dvec3 normal(0.0), size(0.0);
+  for (std::size_t k = 2; k < loop.size(); ++k) {
+    const glm::dvec3 a = glm::dvec3(loop[k - 1]) - origin, b = glm::dvec3(loop[k]) - origin;
+    normal += glm::cross(a, b);
+    size = glm::max(size, glm::max(glm::abs(a), glm::abs(b)));
+  }
+  const double reach = kPlaceRounding * glm::dot(glm::abs(normal), size + glm::abs(origin));
+  return std::ranges::all_of(
+      loop, [&](const glm::vec3& p) { return std::abs(glm::dot(normal, glm::dvec3(p) - origin)) <= reach; });
+}
+
+/// One side of the light for a set of receivers: what is outside by more than `margin` has negative `inside`.
+struct FarSide {
+  glm::dvec3 inward{0.0};
+  double bound = 0.0;
+  double inside(const glm::vec3& p) const { return glm::dot(inward, glm::dvec3(p)) + bound; }
+};
+
+/// Replaces the parts of `loop` outside `side` by chords along it. Of loops that are not planar only where
+/// both ends of the chord are before all receivers (see collapseRuns()).
+void cutSide(std::vector<glm::vec3>& loop, const FarSide& side, bool planar, float iHigh,
+             std::vector<glm::vec3>& out) {
+  const std::size_t count = loop.size();
+  std::size_t start = 0;
+  while (start < count && side.inside(loop[start]) < 0.0) ++start;
+  if (start == count) return;
+  const auto at = [&](std::size_t k) -> const glm::vec3& { return loop[(start + k) % count]; };
+  const auto crossing = [&](const glm::vec3& a, const glm::vec3& b) {
+    const double from = side.inside(a), to = side.inside(b);
+    return glm::vec3(glm::mix(glm::dvec3(a), glm::dvec3(b), from / (from - to)));
+  };
+  out.clear();
+  for (std::size_t k = 0; k < count;) {
+    out.push_back(at(k));
+    if (side.inside(at(++k)) >= 0.0) continue;
+    std::size_t end = k;
+    while (side.inside(at(end)) < 0.0) ++end;
+    const glm::vec3 leaves = crossing(at(k - 1), at(k)), returns = crossing(at(end - 1), at(end));
+    if (planar || std::min(leaves.z, returns.z) >= iHigh) {
+      out.push_back(leaves);
+      out.push_back(returns);
+    } else {
+      for (; k < end; ++k) out.push_back(at(k));
+    }
+    k = end;
+  }
+  loop.swap(out);
+}
+
+void cutFarOutside(std::vector<glm::vec3>& loop, const SubLight& light, const TangentBox& box,
+                   std::vector<glm::vec3>& scratch) {
+  const glm::vec2 extent = box.tHigh - box.tLow;
+  const float size = std::max({extent.x, extent.y, box.iHigh - box.iLow});
+  const glm::vec2 low = light.center - light.half, high = light.center + light.half;
+  const auto isFar = [&](const glm::vec3& p) {
+    const float above = p.z - box.iLow, reach = kFarOutside * (size + std::abs(above));
+    const glm::vec2 beyond = glm::max(glm::vec2(p) - box.tHigh - above * high, box.tLow + above * low - glm::vec2(p));
+    return std::max(beyond.x, beyond.y) > reach;
+  };
+  if (std::ranges::none_of(loop, isFar)) return;
+  const bool planar = isPlanar(loop);
+  const double margin = kOutside * size;
+  for (int axis = 0; axis < 2 && loop.size() >= 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      // sign (t - X i) <= the largest of it over the box, and the margin.
+      const double edge = sign > 0.0 ? high[axis] : low[axis];
+      const double t = sign > 0.0 ? box.tHigh[axis] : -box.tLow[axis];
+      const double i = sign * edge > 0.0 ? box.iLow : box.iHigh;
+      FarSide side{.inward = {0.0, 0.0, sign * edge}, .bound = t - sign * edge * i + margin};
+      side.inward[axis] = -sign;
+      cutSide(loop, side, planar, box.iHigh, scratch);
+    }
+  }
+}
+
 /// A vertex of a loop under simplification. `sure`: it lies before every receiver.
 struct Judged {
   glm::vec3 ti{0.0f};
@@ -111,6 +193,7 @@ class Simplifier {
     thread_local std::vector<Judged> judged, collapsed;
     cutFar(loop, farEnd(receivers_), cut);
     if (cut.size() < 3) return;
+    cutFarOutside(cut, light_, receivers_, kept);
     judged.clear();
     unsigned common = ~0u;
     for (const glm::vec3& v : cut) {

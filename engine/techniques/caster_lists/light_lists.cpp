@@ -171,6 +171,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
                           kMaxTiles, loops_.minHeight());
         cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges);
         changed = true;
+        if(getenv("DBGL")) { int os=0,al=0; for(auto&r:cached.lists.records){os+=r.oneSided;++al;} fprintf(stderr,"DBG casts %d closed %d behind %d tiles %dx%d partial %zu records %d onesided %d patches %zu origin %g\n",item.casts,item.closed,seenFromBehind,cached.tiles.columns,cached.tiles.rows,cached.lists.partialTiles,al,os,cached.tiles.patches.size(),loops_.space().originI);}
       }
       used.push_back(item.geometry);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});

@@ -17,6 +17,9 @@ constexpr float kEven = 0.95f;
 /// Radii of a patch from its middle from which on it is listed whole.
 constexpr double kFarPatch = 1.25;
 
+/// In place of a point: the vertex lies below the least height.
+constexpr std::uint32_t kBelow = kNoFacet - 1;
+
 int judge(double value, double reach) {
   return value > reach ? 1 : value < -reach ? -1 : 0;
 }
@@ -206,36 +209,64 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   const bool turned = glm::determinant(linear) > 0.0;
 
   NearSurface surface{.closed = own.closed, .convex = own.convex};
+  std::vector<glm::dvec3> abh(mesh.positions().size());
   std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cutOf;  // of edges, by their vertices
+  const auto addPoint = [&](const glm::dvec3& p) {
+    surface.points.emplace_back(space.tangentPoint(p));
+    surface.pointsWorld.push_back(plane.toWorld(p) - plane.centerWorld);
+    return static_cast<std::uint32_t>(surface.points.size() - 1);
+  };
+  const auto isAbove = [&](std::uint32_t v) { return abh[v].z >= minHeight; };
+  const auto cutPoint = [&](std::uint32_t v, std::uint32_t w) {
+    const auto [found, isNew] = cutOf.try_emplace(std::minmax(v, w));
+    const glm::dvec3 &from = abh[found->first.first], &to = abh[found->first.second];
+    if (isNew) found->second = addPoint(glm::mix(from, to, (minHeight - from.z) / (to.z - from.z)));
+    return found->second;
+  };
+  // What reaches through the plane h = minHeight is cut: of such a face one or two facets are left.
+  std::vector<std::uint32_t> firstFacet(own.faceCount + 1, 0), corners;
   surface.facets.reserve(own.faceCount);
-  for (std::uint32_t f = own.firstFace; f < own.firstFace + own.faceCount; ++f) {
-    NearSurface::Facet facet{
-        .beyond = {kNoFacet, kNoFacet, kNoFacet}, .low = glm::vec3(1e30f), .high = glm::vec3(-1e30f)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh.faces()[f][turned ? 2 - k : k];
-      if (pointOf[v] == kNoFacet) {
-        const glm::dvec3 abh = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
-        if (abh.z < minHeight) return {};
-        pointOf[v] = static_cast<std::uint32_t>(surface.points.size());
-        surface.points.emplace_back(space.tangentPoint(abh));
-        surface.pointsWorld.push_back(plane.toWorld(abh) - plane.centerWorld);
-      }
-      facet.vertex[k] = pointOf[v];
-      facet.low = glm::min(facet.low, surface.points[pointOf[v]]);
-      facet.high = glm::max(facet.high, surface.points[pointOf[v]]);
+  for (std::uint32_t face = 0; face < own.faceCount; ++face) {
+    const glm::uvec3& vertices = mesh.faces()[own.firstFace + face];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = vertices[k];
+      if (pointOf[v] != kNoFacet) continue;
+      abh[v] = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
+      pointOf[v] = isAbove(v) ? addPoint(abh[v]) : kBelow;
     }
-    const auto at = [&](std::size_t k) { return surface.pointsWorld[facet.vertex[k]]; };
-    // Outward: the vertices run counter-clockwise in (a, b), which is clockwise for the light that looks at
-    // them.
-    const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
-    const glm::dvec3 normal = cross / std::max(glm::length(cross), 1e-300);
-    facet.plane = space.planeThrough(normal, at(0));
-    surface.facets.push_back(facet);
+    corners.clear();
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = vertices[turned ? 2 - k : k], w = vertices[turned ? (4 - k) % 3 : (k + 1) % 3];
+      if (isAbove(v)) corners.push_back(pointOf[v]);
+      if (isAbove(v) != isAbove(w)) corners.push_back(cutPoint(v, w));
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      NearSurface::Facet facet{.vertex = {corners[0], corners[k - 1], corners[k]},
+                               .beyond = {kNoFacet, kNoFacet, kNoFacet},
+                               .low = glm::vec3(1e30f),
+                               .high = glm::vec3(-1e30f)};
+      for (const std::uint32_t v : facet.vertex) {
+        facet.low = glm::min(facet.low, surface.points[v]);
+        facet.high = glm::max(facet.high, surface.points[v]);
+      }
+      const auto at = [&](std::size_t c) { return surface.pointsWorld[facet.vertex[c]]; };
+      // Outward: the vertices run counter-clockwise in (a, b), which is clockwise for the light that looks at
+      // them.
+      const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
+      facet.plane = space.planeThrough(cross / std::max(glm::length(cross), 1e-300), at(0));
+      // The two halves of a cut face meet along its diagonal.
+      const auto number = static_cast<std::uint32_t>(surface.facets.size());
+      if (k == 3) facet.beyond[0] = number - 1, surface.facets.back().beyond[2] = number;
+      surface.facets.push_back(facet);
+    }
+    firstFacet[face + 1] = static_cast<std::uint32_t>(surface.facets.size());
   }
   for (const scene::FaceCluster& cluster : mesh.clusters().subspan(own.firstCluster, own.clusterCount)) {
-    for (std::uint32_t k = 0; k < cluster.faceCount; ++k) {
-      const std::uint32_t f = cluster.firstFace - own.firstFace + k;
-      if (k == 0 || cluster.cosAngle < kEven) surface.patches.push_back({.firstFacet = f});
+    const std::uint32_t first = cluster.firstFace - own.firstFace;
+    const std::uint32_t end = firstFacet[first + cluster.faceCount];
+    for (std::uint32_t f = firstFacet[first]; f < end; ++f) {
+      if (f == firstFacet[first] || cluster.cosAngle < kEven) surface.patches.push_back({.firstFacet = f});
       NearSurface::Patch& patch = surface.patches.back();
       ++patch.facetCount;
       patch.low = glm::min(patch.low, surface.facets[f].low);
@@ -244,18 +275,25 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
     }
   }
   measurePatches(surface);
-  const auto join = [&](std::uint32_t f, std::uint32_t from, std::uint32_t to, std::uint32_t beyond) {
-    NearSurface::Facet& facet = surface.facets[f];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = facet.vertex[k], q = facet.vertex[(k + 1) % 3];
-      if ((p == from && q == to) || (p == to && q == from)) facet.beyond[k] = beyond;
+  /// The facet of a face that has this edge, and the edge's place there.
+  const auto facetWith = [&](std::uint32_t face, std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t f = firstFacet[face]; f < firstFacet[face + 1]; ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t p = surface.facets[f].vertex[k], q = surface.facets[f].vertex[(k + 1) % 3];
+        if ((p == from && q == to) || (p == to && q == from)) return std::pair(f, k);
+      }
     }
+    return std::pair(kNoFacet, std::size_t{0});
   };
   for (const scene::EdgeRecord& edge : mesh.edges().subspan(own.firstEdge, own.edgeCount)) {
-    if (edge.opposite == scene::kNoFace) continue;
-    const std::uint32_t a = edge.face - own.firstFace, b = edge.opposite - own.firstFace;
-    join(a, pointOf[edge.from], pointOf[edge.to], b);
-    join(b, pointOf[edge.from], pointOf[edge.to], a);
+    if (edge.opposite == scene::kNoFace || (!isAbove(edge.from) && !isAbove(edge.to))) continue;
+    const std::uint32_t from = isAbove(edge.from) ? pointOf[edge.from] : cutPoint(edge.from, edge.to);
+    const std::uint32_t to = isAbove(edge.to) ? pointOf[edge.to] : cutPoint(edge.from, edge.to);
+    const auto [a, placeA] = facetWith(edge.face - own.firstFace, from, to);
+    const auto [b, placeB] = facetWith(edge.opposite - own.firstFace, from, to);
+    if (a == kNoFacet || b == kNoFacet) continue;
+    surface.facets[a].beyond[placeA] = b;
+    surface.facets[b].beyond[placeB] = a;
   }
   return surface;
 }

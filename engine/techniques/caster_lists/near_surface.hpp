@@ -58,7 +58,7 @@ struct NearSurface {
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
 };
 
-/// No facets where the part reaches through the plane h = minHeight.
+/// What reaches through the plane h = minHeight is cut there.
 NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
                         double minHeight);
 

@@ -140,8 +140,9 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
       TangentBox& box = tiles.boxes[tile];
       const double rounding = 2.0 * kPlaceRounding * std::max(std::abs(iLow), std::abs(iHigh));
       const auto l = static_cast<float>(iLow - rounding), h = static_cast<float>(iHigh + rounding);
-      box.iLow = box.empty() ? l : std::min(box.iLow, l);
-      box.iHigh = std::max(box.iHigh, h);
+      const bool first = box.empty();
+      box.iLow = first ? l : std::min(box.iLow, l);
+      box.iHigh = first ? h : std::max(box.iHigh, h);
     }
   }
 }
