@@ -20,15 +20,15 @@ HS_Occlusion hs_ofCaster() {
   HS_HIGHP vec2 at;
   HS_HIGHP vec3 origin;
   bool reaches = hs_casterReaches(at, origin);
-  HS_Walk walk;
-  hs_startWalk(walk);
+  HS_CasterWalk walk;
+  hs_startCasterWalk(walk);
   HS_Sums sums;
   hs_clearSums(sums);
   for (int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!reaches) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
-    hs_walk(walk, sums, projected, tags);
+    hs_casterWalk(walk, sums, projected, tags);
     if (tags.ends > 0.5) break;
   }
   return hs_occlusion(sums);

@@ -12,14 +12,14 @@ void main() {
   HS_HIGHP vec2 at;
   HS_HIGHP vec3 origin;
   bool reaches = hs_casterReaches(at, origin);
-  HS_Walk walk;
-  hs_startWalk(walk);
+  HS_CasterWalk walk;
+  hs_startCasterWalk(walk);
   HS_Cells covered = HS_CELLS_ALL(0.0);
   for (int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!reaches) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
-    hs_walk(walk, covered, projected, tags);
+    hs_casterWalk(walk, covered, projected, tags);
     if (tags.ends > 0.5) break;
   }
 #if HS_CELLS == 4

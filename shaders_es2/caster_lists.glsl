@@ -3,76 +3,84 @@
 // Walks the silhouette vertices that matter for the fragment's tile of its receiver. The including file defines
 // HS_SUB_LIGHTS, the number of sub-lights. Needs list_vertices.glsl.
 #ifdef HS_FACET_NORMAL
-varying HS_HIGHP vec2 v_gradient;
+varying HS_HIGHP vec4 v_facetPlane;  // dot(v_facetPlane, v_map) = 0 on the facet
 #ifndef HS_NO_HIGHP
 #define HS_EXACT_PLACE
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
-uniform HS_HIGHP mat3 u_rayLight;  // direction of a pixel's ray in (a, b, h) from (x, y, 1), both 0 to 1
+// Direction of a pixel's ray, like v_map: u_rayX · x + u_rayY · y + u_rayOrigin, x and y from 0 to 1.
+uniform HS_HIGHP vec4 u_rayX;
+uniform HS_HIGHP vec4 u_rayY;
+uniform HS_HIGHP vec4 u_rayOrigin;
 #endif
 #endif
-uniform HS_HIGHP vec3 u_eyeLight;  // the eye in (a, b, h)
-varying HS_HIGHP vec4 v_map;       // (a, b, -, h) in the light's coordinates
+uniform HS_HIGHP vec4 u_eyeLight;  // the eye, like v_map
+varying HS_HIGHP vec4 v_map;       // (t, i) = xyz / w, w: the height over the light
 uniform HS_HIGHP sampler2D u_cellTiles;
 uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = tangent · xy + zw
 uniform HS_HIGHP vec4 u_tileAtlas;      // xy: columns and rows of the receiver's tiles, zw: first texel
 #if defined(HS_CASTING_RECEIVER) && (defined(HS_FACET_NORMAL) || defined(HS_DERIVATIVES))
 #define HS_LIFTED
-uniform HS_HIGHP mat3 u_lift;  // lift² times the inner product of gradients in (a, b, h)
 #endif
 
 HS_HIGHP vec3 hs_receiver = vec3(0.0);  // (t, i)
+HS_HIGHP vec3 hs_away = vec3(0.0);      // signs of the directions in which it leaves its facet
 HS_HIGHP vec4 hs_head = vec4(0.0);      // xyz: where the list begins
 HS_HIGHP float hs_lit = 0.0;            // of HS_SUB_LIGHTS, those that nothing covers
 bool hs_outside = false;                // of all shadows
 bool hs_listed = false;
 bool hs_apart = false;  // no two casters of the list overlap
-
-// Finds the fragment's tile, then where it stands once lifted.
-void hs_findList() {
-  HS_HIGHP vec3 position = v_map.xyw;
-  HS_HIGHP float reciprocal = 1.0 / max(position.z, u_listCenter.w);
-#ifdef HS_FACET_NORMAL
-  // i = 1 / h has the gradient v_gradient over (a, b) / h: the plane is dot(n, (a, b, h)) = 1.
-  HS_HIGHP vec3 n = vec3(v_gradient, reciprocal - reciprocal * dot(v_gradient, position.xy));
+#ifdef HS_AMONG_RECEIVERS
+bool hs_among = false;  // some vertices may lie beside or behind the receiver
 #endif
+
+// Finds the fragment's tile, and where it stands.
+void hs_findList() {
+  HS_HIGHP vec4 position = v_map;
 #ifdef HS_EXACT_PLACE
   // Rasterisers snap vertices, some to a sixteenth of a pixel, and interpolate to match: a narrow penumbra shows
   // that. The pixel's own ray meets the facet's plane where it should.
-  HS_HIGHP vec3 ray = u_rayLight * vec3(gl_FragCoord.xy * u_viewport.xy + u_viewport.zw, 1.0);
-  HS_HIGHP float across = dot(n, ray);
-  HS_HIGHP float along = (1.0 - dot(n, u_eyeLight)) / (abs(across) < 1e-12 ? 1e-12 : across);
-  HS_HIGHP vec3 met = u_eyeLight + along * ray;
+  HS_HIGHP vec2 window = gl_FragCoord.xy * u_viewport.xy + u_viewport.zw;
+  HS_HIGHP vec4 ray = window.x * u_rayX + window.y * u_rayY + u_rayOrigin;
+  HS_HIGHP float across = dot(v_facetPlane, ray);
+  HS_HIGHP float along = -dot(v_facetPlane, u_eyeLight) / (abs(across) < HS_SMALL ? HS_SMALL : across);
+  HS_HIGHP vec4 met = u_eyeLight + along * ray;
   // By no more than half a pixel: what is farther off is a neighbour's fragment, or numbers that cancelled.
-  HS_HIGHP vec3 moved = abs(met - position), pixel = abs(along * u_viewport.x * u_rayLight[0]);
-  HS_HIGHP float slant = min(length(n) * length(ray) / max(abs(across), 1e-12), 8.0);
-  if (max(max(moved.x, moved.y), moved.z) < 0.5 * slant * max(max(pixel.x, pixel.y), pixel.z)) {
-    position = met;
-    reciprocal = 1.0 / max(position.z, u_listCenter.w);
-  }
+  HS_HIGHP vec4 moved = abs(met - position), pixel = abs(along * u_viewport.x * u_rayX);
+  HS_HIGHP float slant = min(length(v_facetPlane) * length(ray) / max(abs(across), HS_SMALL), 8.0);
+  if (max(max(moved.x, moved.y), moved.w) < 0.5 * slant * max(max(pixel.x, pixel.y), pixel.w)) position = met;
 #endif
-  HS_HIGHP vec2 tile = floor(position.xy * reciprocal * u_tileOfTangent.xy + u_tileOfTangent.zw);
-  hs_outside = position.z < u_listCenter.w || min(tile.x, tile.y) < 0.0 || tile.x >= u_tileAtlas.x ||
+  HS_HIGHP float reciprocal = 1.0 / max(position.w, u_listPlace.x);
+  hs_receiver = position.xyz * reciprocal;
+  HS_HIGHP vec2 tile = floor(hs_receiver.xy * u_tileOfTangent.xy + u_tileOfTangent.zw);
+  hs_outside = position.w < u_listPlace.x || min(tile.x, tile.y) < 0.0 || tile.x >= u_tileAtlas.x ||
                  tile.y >= u_tileAtlas.y;
   HS_COUNT(1);
   hs_head = floor(texture2D(u_cellTiles, (tile + u_tileAtlas.zw + 0.5) * u_cellTexel.xy) * 255.0 + 0.5);
-  // Alpha: sub-lights that nothing covers, 16 where there is a list, 32 where its casters are apart.
+  // Alpha: sub-lights that nothing covers, 16 where there is a list, 32 where its casters are apart, 64 where vertices
+  // lie among the receivers.
+#ifdef HS_AMONG_RECEIVERS
+  hs_among = !hs_outside && hs_head.a > 63.5;
+#endif
+  hs_head.a = mod(hs_head.a, 64.0);
   hs_listed = !hs_outside && hs_head.a > 15.5;
   hs_apart = !hs_outside && hs_head.a > 31.5;
   hs_lit = hs_outside ? HS_SUB_LIGHTS : mod(hs_head.a, 16.0);
 #ifdef HS_LIFTED
-  // A surface must not be cut by the silhouettes of its own edges.
-#ifndef HS_FACET_NORMAL
-  HS_HIGHP vec3 n = cross(dFdx(position), dFdy(position));
+  // A surface must not be cut by the silhouettes of its own edges. Planes stay planes in (t, i).
+#ifdef HS_FACET_NORMAL
+  HS_HIGHP vec3 n = v_facetPlane.xyz;
+  hs_receiver -= n * ((dot(n, hs_receiver) + v_facetPlane.w) / max(dot(n, n), HS_SMALL));
+#else
+  HS_HIGHP vec3 n = cross(dFdx(hs_receiver), dFdy(hs_receiver));
 #endif
   // Towards the eye: that side of the surface is seen.
-  n *= dot(n, u_eyeLight - position) < 0.0 ? -1.0 : 1.0;
-  HS_HIGHP vec3 lift = u_lift * n;
-  position += lift * inversesqrt(max(dot(n, lift), HS_SMALL));
+  hs_away = sign(n) * (dot(n, u_eyeLight.xyz - u_eyeLight.w * hs_receiver) < 0.0 ? -1.0 : 1.0);
 #endif
-  reciprocal = 1.0 / max(position.z, u_listCenter.w);
-  hs_receiver = vec3(position.xy * reciprocal, reciprocal);
 }
 
-// Where the fragment's list begins, and what hs_nextVertex() adds to its vertices.
-HS_HIGHP vec2 hs_firstVertex() { return hs_vertexAt(hs_head.r, hs_head.g + 256.0 * hs_head.b); }
-HS_HIGHP vec3 hs_listOrigin() { return hs_originFrom(hs_receiver); }
+// Goes to the first vertex of the fragment's list. Returns what hs_nextVertex() adds to its vertices.
+HS_HIGHP vec3 hs_enterList(out HS_HIGHP vec2 at) {
+  at = hs_vertexAt(hs_head.r, hs_head.g + 256.0 * hs_head.b);
+  HS_HIGHP vec3 center = hs_beginList(at);
+  return hs_originFrom(center, hs_receiver, hs_away);
+}

@@ -3,6 +3,9 @@
 // Coverage of the cells of the square [-1, 1]² by one edge of a closed loop: the integral of x dy inside each
 // cell, with x counted from the cell's left side and limited to its width. Summed over a counter-clockwise loop
 // it is the covered share of the cell, exactly: no light-centre bit, no quadrant signs, no repair of wraps.
+#if defined(HS_CASTING_RECEIVER) || defined(HS_AMONG_RECEIVERS)
+#define HS_CUTS  // edges may pass the receiver's height
+#endif
 #ifdef HS_NO_HIGHP
 #define HS_FLAT 0.002
 #define HS_STEEP 0.03
@@ -64,7 +67,7 @@ void hs_addEdge(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
 #endif
 }
 
-#ifdef HS_CASTING_RECEIVER
+#ifdef HS_CUTS
 // The same for a chord between two points far outside the square: it passes the rows on the left, where it
 // covers nothing, or on the right, where it covers them whole.
 void hs_addFarChord(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_HIGHP float weight) {

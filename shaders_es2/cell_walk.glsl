@@ -2,31 +2,6 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Adds the edges of silhouette loops to light cells, vertex by vertex. Needs cell_coverage.glsl and
 // list_vertices.glsl.
-struct HS_Walk {
-#ifdef HS_CASTING_RECEIVER
-  HS_HIGHP vec3 previous;
-  HS_HIGHP vec2 reached, firstReached;
-  HS_HIGHP float begun;
-#ifdef HS_ONE_SIDED
-  HS_Cells oneSided;  // what the loop covers so far, if it is one-sided
-#endif
-#else
-  HS_HIGHP vec2 previous;
-#endif
-};
-
-void hs_startWalk(out HS_Walk walk) {
-#ifdef HS_CASTING_RECEIVER
-  walk.previous = vec3(0.0);
-  walk.reached = walk.firstReached = vec2(0.0);
-  walk.begun = 0.0;
-#ifdef HS_ONE_SIDED
-  walk.oneSided = HS_CELLS_ALL(0.0);
-#endif
-#else
-  walk.previous = vec2(0.0);
-#endif
-}
 
 // Where a vertex projects onto the light, relative to the sub-light's centre, in its half sides.
 HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
@@ -38,12 +13,41 @@ HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
 }
 
 // `projected`, `tags`: of hs_nextVertex().
+#ifndef HS_CASTING_RECEIVER
+// For receivers behind every vertex.
+struct HS_Walk {
+  HS_HIGHP vec2 previous;
+};
+void hs_startWalk(out HS_Walk walk) { walk.previous = vec2(0.0); }
 void hs_walk(inout HS_Walk walk, inout HS_Cells covered, HS_HIGHP vec3 projected, HS_Tags tags) {
-#ifdef HS_CASTING_RECEIVER
-  // Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
+  HS_HIGHP vec2 point = hs_onSubLight(projected, tags.side);
+  hs_addEdge(covered, mix(walk.previous, point, tags.starts), point);
+  walk.previous = point;
+}
+#endif
+
+#ifdef HS_CUTS
+// Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
+struct HS_CutWalk {
+  HS_HIGHP vec3 previous;
+  HS_HIGHP vec2 reached, firstReached;
+  HS_HIGHP float begun;
+#ifdef HS_ONE_SIDED
+  HS_Cells oneSided;  // what the loop covers so far, if it is one-sided
+#endif
+};
+void hs_startCutWalk(out HS_CutWalk walk) {
+  walk.previous = vec3(0.0);
+  walk.reached = walk.firstReached = vec2(0.0);
+  walk.begun = 0.0;
+#ifdef HS_ONE_SIDED
+  walk.oneSided = HS_CELLS_ALL(0.0);
+#endif
+}
+void hs_cutWalk(inout HS_CutWalk walk, inout HS_Cells covered, HS_HIGHP vec3 projected, HS_Tags tags) {
   walk.begun *= 1.0 - tags.starts;
-  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - HS_NEAR, now = projected.z - HS_NEAR;
-  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < 1e-9 ? 1e-9 : before - now));
+  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - hs_near, now = projected.z - hs_near;
+  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < HS_SAME ? HS_SAME : before - now));
   bool crosses = before * now < 0.0 && tags.starts < 0.5;
   bool seen = max(before, now) > 0.0;
   HS_HIGHP vec2 from = hs_onSubLight(before > 0.0 ? walk.previous : (crosses ? cut : projected), tags.side);
@@ -68,9 +72,5 @@ void hs_walk(inout HS_Walk walk, inout HS_Cells covered, HS_HIGHP vec3 projected
   hs_addFarChord(covered, walk.reached, walk.firstReached, walk.begun * tags.closes);
 #endif
   walk.previous = projected;
-#else
-  HS_HIGHP vec2 point = hs_onSubLight(projected, tags.side);
-  hs_addEdge(covered, mix(walk.previous, point, tags.starts), point);
-  walk.previous = point;
-#endif
 }
+#endif

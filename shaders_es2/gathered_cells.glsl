@@ -12,13 +12,17 @@
 // Visible sub-lights, of HS_SUB_LIGHTS.
 HS_HIGHP float hs_gatheredLight() {
   hs_findList();
-  HS_HIGHP vec2 at = hs_firstVertex();
-  HS_HIGHP vec3 origin = hs_listOrigin();
-  HS_Walk walk;
-  hs_startWalk(walk);
+  HS_HIGHP vec2 at;
+  HS_HIGHP vec3 origin = hs_enterList(at);
   HS_Cells visible = HS_CELLS_ALL(1.0);
   HS_Cells covered = HS_CELLS_ALL(0.0);
+#ifndef HS_CASTING_RECEIVER
+  HS_Walk walk;
+  hs_startWalk(walk);
   for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+#ifdef HS_AMONG_RECEIVERS
+    if (hs_among) break;
+#endif
     if (!hs_listed) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
@@ -27,5 +31,23 @@ HS_HIGHP float hs_gatheredLight() {
     hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
     if (tags.ends > 2.5) break;
   }
+#endif
+#ifdef HS_CUTS
+  HS_CutWalk cutWalk;
+  hs_startCutWalk(cutWalk);
+  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+#ifdef HS_CASTING_RECEIVER
+    if (!hs_listed) break;
+#else
+    if (!hs_among) break;
+#endif
+    HS_Tags tags;
+    HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
+    hs_cutWalk(cutWalk, covered, projected, tags);
+    hs_foldCaster(visible, covered, step(HS_FOLD_AT, tags.ends));
+    hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
+    if (tags.ends > 2.5) break;
+  }
+#endif
   return hs_lit;
 }

@@ -4,16 +4,19 @@
 // (t, i): tangents (a, b) / h as the light sees them, and the reciprocal height 1 / h.
 uniform HS_HIGHP sampler2D u_cellLists;
 uniform HS_HIGHP vec4 u_cellTexel;   // xy: 1 / size of the tile texture, zw: of the list texture
-uniform HS_HIGHP vec4 u_listCenter;  // xyz: (t, i) of the value 32768, w: smallest height of a receiver
-uniform HS_HIGHP vec4 u_listScale;   // xyz: (t, i) of one step, w: bias of i
+// x: smallest height of a receiver; y: by how many steps vertices are nearer to its height than stored; by how many
+// steps (z), and by what share of its (t, i) (w), it stands off its facet.
+uniform HS_HIGHP vec4 u_listPlace;
 #ifdef HS_NO_HIGHP
 #define HS_FAR 0.02
-#define HS_NEAR 0.001
+#define HS_BEHIND 1e-7
 #define HS_SMALL 1e-4
+#define HS_SAME 1e-4
 #else
-#define HS_FAR 0.00005
-#define HS_NEAR 1e-6
+#define HS_FAR 1e-6
+#define HS_BEHIND 1e-30
 #define HS_SMALL 1e-30
+#define HS_SAME 1e-30
 #endif
 // More than the longest list that any scene has needed; also keeps compilers from unrolling.
 #define HS_LONGEST_LIST 16384
@@ -22,9 +25,34 @@ uniform HS_HIGHP vec4 u_listScale;   // xyz: (t, i) of one step, w: bias of i
 HS_HIGHP vec2 hs_vertexAt(HS_HIGHP float column, HS_HIGHP float row) {
   return vec2(2.0 * column + 0.5, row + 0.5) * u_cellTexel.zw;
 }
-// What hs_nextVertex() adds to vertices, for a receiver in (t, i).
-HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 receiver) {
-  return u_listCenter.xyz - receiver - vec3(0.0, 0.0, u_listScale.w);
+HS_HIGHP vec3 hs_step = vec3(1.0);  // (t, i) of one step of the list's vertices
+HS_HIGHP float hs_near = 1.0;       // edges are cut where they are so little nearer to the light than the receiver
+
+HS_HIGHP vec2 hs_recordAfter(HS_HIGHP vec2 at) {
+  at.x += 2.0 * u_cellTexel.z;
+  return at + step(1.0, at.x) * vec2(-1.0, u_cellTexel.w);
+}
+
+// Reads where the list's vertices are counted from, and moves on to the first.
+HS_HIGHP vec3 hs_beginList(inout HS_HIGHP vec2 at) {
+  HS_COUNT(2);
+  HS_HIGHP vec4 first = texture2D(u_cellLists, at);
+  HS_HIGHP vec4 second = texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0));
+  HS_HIGHP vec3 high = floor(vec3(first.xz, second.x) * 255.0 + 0.5);
+  HS_HIGHP vec3 value = (high - 128.0) * 256.0 + floor(vec3(first.yw, second.y) * 255.0 + 0.5);
+  HS_HIGHP vec2 exponents = floor(second.zw * 255.0 + 0.5) - 128.0;
+  hs_step = exp2(exponents.xxy);
+  hs_near = 0.25 * hs_step.z;
+  at = hs_recordAfter(at);
+  return value * (256.0 * hs_step);
+}
+// What hs_nextVertex() adds to vertices, for a receiver in (t, i) that leaves its facet in the directions `away`, one for
+// each coordinate, and a list with that centre.
+HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 center, HS_HIGHP vec3 receiver, HS_HIGHP vec3 away) {
+  HS_HIGHP vec3 rounding = u_listPlace.w * abs(receiver);
+  HS_HIGHP vec3 origin = center - receiver - away * (u_listPlace.z * hs_step + rounding);
+  origin.z -= u_listPlace.y * hs_step.z + rounding.z;
+  return origin;
 }
 
 // Whether a loop starts here (no edge leads here) or closes, and what ends: 1 the caster, 2 the sub-light, 3 the
@@ -60,13 +88,12 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   rest -= 8.0 * tags.oneSided;
 #endif
   tags.ends = rest;
-  at.x += 2.0 * u_cellTexel.z;
-  at += step(1.0, at.x) * vec2(-1.0, u_cellTexel.w);
-  return value * u_listScale.xyz * bytes.y + origin;
+  at = hs_recordAfter(at);
+  return value * hs_step * bytes.y * bytes.y + origin;
 }
 
 // Where a vertex projects onto the light. Vertices beside or behind the receiver go far away in their direction.
 HS_HIGHP vec2 hs_onLight(HS_HIGHP vec3 projected) {
-  HS_HIGHP float w = max(projected.z, HS_FAR * max(abs(projected.x), abs(projected.y)) + 1e-7);
+  HS_HIGHP float w = max(projected.z, HS_FAR * max(abs(projected.x), abs(projected.y)) + HS_BEHIND);
   return projected.xy / w;
 }

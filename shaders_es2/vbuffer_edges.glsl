@@ -5,6 +5,9 @@
 // right, each with its own lower left corner at (0, 0) and its upper right corner at (1, 1).
 // Based on: Forest, Barthe, Paulin, "Realistic Soft Shadows by Penumbra-Wedges Blending", 2006, section 4.3,
 // with areas integrated along the light's axes instead of around its centre: no light-centre bit, no repair.
+#if defined(HS_CASTING_RECEIVER) || defined(HS_AMONG_RECEIVERS)
+#define HS_CUTS  // edges may pass the receiver's height
+#endif
 #ifdef HS_NO_HIGHP
 #define HS_LEVEL 2e-3
 #define HS_SHORT 0.03
@@ -117,7 +120,7 @@ void hs_addEdge(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
   sums.reachY = max(sums.reachY, hs_reach(y, columns));
 }
 
-#ifdef HS_CASTING_RECEIVER
+#ifdef HS_CUTS
 // The same for a chord between two points far outside the light, which passes it on one side.
 void hs_addFarChord(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
   const vec2 low = vec2(-1.0, 0.0), high = vec2(0.0, 1.0);

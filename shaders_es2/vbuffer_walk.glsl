@@ -2,39 +2,43 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Adds the edges of silhouette loops to what a caster occludes, vertex by vertex. Needs vbuffer_edges.glsl and
 // list_vertices.glsl.
+
+// `projected`, `tags`: of hs_nextVertex().
+#ifndef HS_CASTING_RECEIVER
+// For receivers behind every vertex.
 struct HS_Walk {
-#ifdef HS_CASTING_RECEIVER
+  HS_HIGHP vec2 previous;
+};
+void hs_startWalk(out HS_Walk walk) { walk.previous = vec2(0.0); }
+void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS_Tags tags) {
+  HS_HIGHP vec2 point = hs_onLight(projected);
+  hs_addEdge(sums, mix(walk.previous, point, tags.starts), point);
+  walk.previous = point;
+}
+#endif
+
+#ifdef HS_CUTS
+// Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
+struct HS_CutWalk {
   HS_HIGHP vec3 previous;
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
 #ifdef HS_ONE_SIDED
   HS_Sums oneSided;  // of the loop so far, if it is one-sided
 #endif
-#else
-  HS_HIGHP vec2 previous;
-#endif
 };
-
-void hs_startWalk(out HS_Walk walk) {
-#ifdef HS_CASTING_RECEIVER
+void hs_startCutWalk(out HS_CutWalk walk) {
   walk.previous = vec3(0.0);
   walk.reached = walk.firstReached = vec2(0.0);
   walk.begun = 0.0;
 #ifdef HS_ONE_SIDED
   hs_clearSums(walk.oneSided);
 #endif
-#else
-  walk.previous = vec2(0.0);
-#endif
 }
-
-// `projected`, `tags`: of hs_nextVertex().
-void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS_Tags tags) {
-#ifdef HS_CASTING_RECEIVER
-  // Edges are cut where they pass the receiver's height; the ends are joined by chords far outside the light.
+void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS_Tags tags) {
   walk.begun *= 1.0 - tags.starts;
-  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - HS_NEAR, now = projected.z - HS_NEAR;
-  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < 1e-9 ? 1e-9 : before - now));
+  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - hs_near, now = projected.z - hs_near;
+  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < HS_SAME ? HS_SAME : before - now));
   bool crosses = before * now < 0.0 && tags.starts < 0.5;
   bool seen = max(before, now) > 0.0;
   HS_HIGHP vec2 from = hs_onLight(before > 0.0 ? walk.previous : (crosses ? cut : projected));
@@ -68,9 +72,5 @@ void hs_walk(inout HS_Walk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS
   hs_addFarChord(sums, walk.reached, walk.begun * tags.closes > 0.5 ? walk.firstReached : walk.reached);
 #endif
   walk.previous = projected;
-#else
-  HS_HIGHP vec2 point = hs_onLight(projected);
-  hs_addEdge(sums, mix(walk.previous, point, tags.starts), point);
-  walk.previous = point;
-#endif
 }
+#endif

@@ -63,7 +63,8 @@ struct LightSilhouettes {
     bool turnedAway = false;     ///< the faces of a sheet that look away
     bool enclosesLight = false;  ///< the source lies inside it: nothing outside sees the light
   };
-  /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover.
+  /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover. In
+  /// double: far from the light all heights are about equal.
   std::vector<glm::dvec3> points;
   std::vector<Loop> loops;
   std::vector<Caster> casters;

@@ -85,8 +85,8 @@ class LayerSplitter {
       const LightSilhouettes::Loop& loop = source_.loops[l];
       const auto first = static_cast<std::uint32_t>(strands_.size());
       for (std::uint32_t i = 0; i < loop.count; ++i) {
-        const glm::dvec3 a(source_.points[loop.first + i]);
-        const glm::dvec3 b(source_.points[loop.first + (i + 1) % loop.count]);
+        const glm::dvec3 a = source_.points[loop.first + i];
+        const glm::dvec3 b = source_.points[loop.first + (i + 1) % loop.count];
         const double x = jitter(), y = jitter();
         strands_.push_back({a, b, flat(a) + glm::dvec2(x, y), {}, first + (i + 1) % loop.count});
       }

@@ -70,7 +70,7 @@ TEST(CasterVolumes, EveryShadowedReceiverHasOneVolumeOfItsCaster) {
   const VolumeReach reach{.end = 1.0, .sideways = 64.0};
   for (const SubLight& light : subLights()) {
     const SubLightLoops loops = crowd(light);
-    const CasterVolumes volumes = casterVolumes({&loops, 1}, reach, Batching::none);
+    const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), reach, Batching::none);
     ASSERT_EQ(volumes.volumes.size(), 2 * loops.casters.size());
     ASSERT_EQ(volumes.batchCount, 1u);
     for (int trial = 0; trial < 5000; ++trial) {
@@ -90,7 +90,7 @@ TEST(CasterVolumes, NoTwoOfABatchShareAReceiver) {
   const SubLight light{glm::vec2(0.0f), 1.0f};
   const SubLightLoops loops = crowd(light);
   const VolumeReach reach{.end = 1.0, .sideways = 64.0};
-  const CasterVolumes volumes = casterVolumes({&loops, 1}, reach, Batching::disjoint);
+  const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), reach, Batching::disjoint);
   // Penumbrae are about as wide as the casters stand apart: some neighbours meet, not all.
   EXPECT_GT(volumes.batchCount, 1u);
   EXPECT_LT(volumes.batchCount, 20u);
@@ -112,7 +112,7 @@ TEST(CasterVolumes, LayersStandForACasterBehindIt) {
   loops.layers = {ring({0, 0, 0.5}, 2.0, 0.05), ring({0.5, 0, 0.5}, 1.0, 0.02)};
   loops.casters[0].layerCount = 2;
   const CasterVolumes volumes =
-      casterVolumes({&loops, 1}, {.end = 1.0, .sideways = 64.0}, Batching::disjoint);
+      casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::disjoint);
   // One at the caster's own heights; behind it one a layer, which overlap.
   ASSERT_EQ(volumes.volumes.size(), 3u);
   EXPECT_EQ(volumes.batchCount, 2u);
@@ -128,7 +128,7 @@ TEST(CasterVolumes, AnEnclosedLightNeedsNone) {
   SubLightLoops loops{.light = {glm::vec2(0.0f), 1.0f}};
   loops.casters = {ring({0, 0, 0.5}, 2.0, 0.05)};
   loops.casters[0].enclosesLight = true;
-  const CasterVolumes volumes = casterVolumes({&loops, 1}, {.end = 1.0, .sideways = 64.0}, Batching::none);
+  const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::none);
   EXPECT_TRUE(volumes.lightEnclosed[0]);
   EXPECT_TRUE(volumes.volumes.empty());
 }

@@ -163,7 +163,7 @@ TEST(ReceiverTiles, HoldEverySurfacePoint) {
   for (const scene::SceneObject& object : scene->objects) {
     const ReceiverTiles tiles = receiverTiles(
         {.mesh = object.mesh.get(), .worldFromObject = object.worldFromObject, .closed = object.casts}, plane,
-        all, 0.05, 64, 1e-3, 0.0);
+        all, 0.05, 64, 1e-3);
     if (tiles.empty()) continue;
     const scene::TriangleMesh& mesh = *object.mesh;
     for (std::size_t f = 0; f + 2 < mesh.indices.size(); f += 3) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include "techniques/caster_lists/light_lists.hpp"
 
@@ -22,8 +23,9 @@ struct Vertex {
   glm::vec4 sides;  ///< low a and b, high a and b over height
 };
 
-double farthestReceiver(const LightFrame& frame, const scene::LightPlane& plane) {
-  double farthest = LightLoops::kMinHeight;
+double farthestReceiver(const LightFrame& frame, const LightLoops& loops) {
+  const scene::LightPlane& plane = loops.plane();
+  double farthest = loops.minHeight();
   for (const DrawItem& item : frame.receivers) {
     for (const glm::dvec3& corner : item.boundsWorld.corners()) {
       farthest = std::max(farthest, plane.fromWorld(corner).z);
@@ -32,25 +34,57 @@ double farthestReceiver(const LightFrame& frame, const scene::LightPlane& plane)
   return kBehindAll * farthest;
 }
 
-std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach& reach, float centerI,
-                                 float stepI) {
+/// Corners are kept about this point of (a, b, h).
+glm::dvec3 baseOf(const ListSpace& space) {
+  return space.originI > 0.0 ? space.lightPoint(glm::dvec3(0.0)) : glm::dvec3(0.0);
+}
+
+std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach& reach, const ListSpace& space,
+                                 const EncodedLists& encoded) {
+  const glm::dvec3 base = baseOf(space);
   std::vector<Vertex> stream;
   stream.reserve(volumes.volumes.size() * kCorners);
   for (const CasterVolume& volume : volumes.volumes) {
-    const std::uint32_t record = volumes.lists.tiles[volume.list].first;
+    const EncodedLists::Placed& placed = encoded.lists[volume.list];
+    const std::uint32_t record = placed.firstRecord;
     const WedgeExtent& extent = volume.extent;
+    const glm::dvec2 low = glm::dvec2(extent.lowA, extent.lowB) - space.originT + space.originI * extent.lightHigh;
+    const glm::dvec2 high = glm::dvec2(extent.highA, extent.highB) - space.originT + space.originI * extent.lightLow;
     Vertex vertex{.corner = {},
                   .list = glm::vec3(record % kRecordsPerRow, record / kRecordsPerRow,
-                                    std::round((volume.splitI - centerI) / stepI)),
-                  .sides = glm::vec4(glm::dvec4(extent.lowA, extent.lowB, extent.highA, extent.highB))};
+                                    std::round((volume.splitI - placed.center.z) / placed.step.z)),
+                  .sides = glm::vec4(glm::dvec4(low, high))};
     for (const double h : {volume.from, volume.end}) {
       for (const glm::dvec3& corner : volumeCorners(extent, h, reach)) {
-        vertex.corner = corner;
+        vertex.corner = corner - base;
         stream.push_back(vertex);
       }
     }
   }
   return stream;
+}
+
+/// A receiver's place as caster_fragment.glsl has it.
+struct CasterPlace {
+  glm::dmat3 fromWorld{1.0};     ///< relative to the light's centre; last, 1 less where heights are about equal
+  glm::vec4 heights{0.0f}, sizeWorld{0.0f};
+  float unitWorld = 1.0f;  ///< by which heights are counted
+};
+CasterPlace casterPlace(const ListSpace& space) {
+  /// Of 24 bits for a distance five are its exponent.
+  constexpr float kDistanceRounding = 1.0f / (1 << 19);
+  const glm::dmat4 rows = space.homogeneousFromWorld();
+  const bool even = space.originI > 0.0;
+  CasterPlace place;
+  for (int column = 0; column < 3; ++column)
+    place.fromWorld[column] = {rows[column].x, rows[column].y, even ? rows[column].z : rows[column].w};
+  const double inverse = even ? 1.0 / space.originI : 1.0;
+  place.heights = even ? glm::vec4(inverse, -inverse, 0.0f, 1.0f) : glm::vec4(0.0f, 1.0f, 1.0f, 0.0f);
+  const glm::dvec2 half(glm::length(space.plane.halfU), glm::length(space.plane.halfV));
+  const double unit = space.plane.heightUnit + glm::dot(glm::abs(space.originT), half);
+  place.sizeWorld = glm::vec4(glm::dvec4(half, inverse * unit, kDistanceRounding));
+  place.unitWorld = static_cast<float>(unit);
+  return place;
 }
 }  // namespace
 
@@ -69,12 +103,12 @@ Result<CasterPrograms> casterPrograms(const LightFrame& frame, const std::string
 Status CasterDraws::update(const LightFrame& frame, std::span<const SubLight> subLights, Batching batching) {
   const bool changed = loops_.update(frame, subLights);
   const scene::LightPlane& plane = loops_.plane();
-  const VolumeReach reach{.end = farthestReceiver(frame, plane), .sideways = sidewaysReach(frame, plane)};
+  const VolumeReach reach{.end = farthestReceiver(frame, loops_), .sideways = sidewaysReach(frame, plane)};
   if (uploaded_ && !changed && reach.end == reach_.end && reach.sideways == reach_.sideways) return {};
   uploaded_ = false;
   reach_ = reach;
   subLights_.assign(subLights.begin(), subLights.end());
-  volumes_ = casterVolumes(loops_.subLights(), reach, batching);
+  volumes_ = casterVolumes(loops_.subLights(), loops_.space(), reach, batching);
   if (Status s = upload(frame); !s) return s;
   uploaded_ = true;
   return {};
@@ -91,12 +125,9 @@ Status CasterDraws::upload(const LightFrame& frame) {
         ErrorCode::outOfMemory,
         "the silhouettes' vertices exceed this device's largest texture; use fewer or simpler casters"};
   }
-  center_ = encoded.center;
-  step_ = encoded.step;
-  // Vertices are stored to half a step.
-  heightBias_ = static_cast<float>(2.0 * frame.settings.real("bias")) * step_.z;
+  place_ = listPlace(frame, loops_.minHeight());
   if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
-  const std::vector<Vertex> stream = vertexStream(volumes_, reach_, center_.z, step_.z);
+  const std::vector<Vertex> stream = vertexStream(volumes_, reach_, loops_.space(), encoded);
   if (Status s =
           uploadVolumes(frame.context, vertices_, gl::BufferTarget::vertex, std::as_bytes(std::span(stream)));
       !s) {
@@ -119,20 +150,27 @@ void CasterDraws::draw(framegraph::PassContext& context, const CasterPrograms& p
                                   glm::dvec4(plane.heightUnit * plane.normal, 0),
                                   glm::dvec4(plane.centerWorld, 1));
   const SubLight& light = subLights_[request.subLight];
-  const glm::mat3 facetLift(loops_.lift() * plane.axes);
+  const ListSpace& space = loops_.space();
+  const CasterPlace place = casterPlace(space);
+  ReceiverRays rays = receiverRays(view, depth, place.fromWorld, plane.centerWorld);
+  if (space.originI > 0.0) rays.eye.z += 1.0;
+  const glm::dmat4 clipFromLight =
+      depth.clipFromWorld * worldFromLight * glm::translate(glm::dmat4(1.0), baseOf(space));
   const glm::vec2 texel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
     if (!wanted(part)) continue;
     gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
     encoder.useProgram(program);
-    bindReceiverPosition(context, program, depth, receiverRays(view, depth, plane.axes, plane.centerWorld));
+    bindReceiverPosition(context, program, depth, rays);
     const gl::TextureBinding binding{program.samplerUnit("u_cellLists"), &records_};
     encoder.bindTextures({&binding, 1});
-    program.set(gl, "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromLight));
+    program.set(gl, "u_clipFromLight", glm::mat4(clipFromLight));
     program.set(gl, "u_cellTexel", glm::vec4(0.0f, 0.0f, texel));
-    program.set(gl, "u_listCenter", glm::vec4(center_, LightLoops::kMinHeight));
-    program.set(gl, "u_listScale", glm::vec4(step_, heightBias_));
-    program.set(gl, "u_facetLift", facetLift);
+    program.set(gl, "u_listPlace", place_);
+    program.set(gl, "u_casterPlace", place.heights);
+    program.set(gl, "u_facetLift", glm::mat3(place.fromWorld));
+    program.set(gl, "u_liftSize", place.sizeWorld);
+    program.set(gl, "u_lightUnit", place.unitWorld);
     program.set(gl, "u_casterLight", glm::vec4(light.center - light.half, light.center + light.half));
     if (request.prepare) request.prepare(program);
     drawPart(encoder, view, request, part);

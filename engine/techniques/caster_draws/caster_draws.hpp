@@ -51,8 +51,7 @@ class CasterDraws {
   bool uploaded_ = false;
   gl::Texture records_;
   gl::Buffer vertices_, indices_;
-  glm::vec3 center_{0.0f}, step_{1.0f};
-  float heightBias_ = 0.0f;
+  glm::vec4 place_{0.0f};
   std::vector<SubLight> subLights_;
 };
 

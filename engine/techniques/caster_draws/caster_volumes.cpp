@@ -7,21 +7,21 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// A receiver is behind the whole caster when its reciprocal height is this much smaller than that of the
-/// farthest vertex.
-constexpr float kBehind = 1e-3f;
+/// A receiver is behind the whole caster when its i is smaller than that of the farthest vertex by this share of
+/// the caster's size, or of what single precision knows.
+constexpr float kBehind = 1e-3f, kRounding = 1e-5f;
 
-glm::dvec3 lightPoint(const glm::vec3& ti) {
-  const double h = 1.0 / static_cast<double>(ti.z);
-  return {static_cast<double>(ti.x) * h, static_cast<double>(ti.y) * h, h};
+float splitMargin(const CasterLoops& caster) {
+  const glm::vec3 size = caster.high - caster.low;
+  return std::max(kBehind * std::max({size.x, size.y, size.z}), kRounding * std::abs(caster.low.z));
 }
 
-WedgeExtent extentOf(const CasterLoops& caster, const SubLight& light) {
+WedgeExtent extentOf(const CasterLoops& caster, const SubLight& light, const ListSpace& space) {
   const glm::dvec2 center(light.center), half(light.half);
   WedgeExtent extent;
   extent.lightLow = center - half;
   extent.lightHigh = center + half;
-  for (const glm::vec3& point : caster.points) extent.include(lightPoint(point));
+  for (const glm::vec3& point : caster.points) extent.include(space.lightPoint(glm::dvec3(point)));
   return extent;
 }
 
@@ -45,33 +45,37 @@ std::uint32_t addList(const CasterLoops& caster, std::uint8_t subLight, CellList
 
 class Collector {
  public:
-  Collector(CasterVolumes& result, const VolumeReach& reach) : result_(result), reach_(reach) {}
+  Collector(CasterVolumes& result, const ListSpace& space, const VolumeReach& reach)
+      : result_(result), space_(space), reach_(reach) {}
 
   void add(const SubLightLoops& loops, std::uint32_t subLight) {
     for (std::uint32_t c = 0; c < loops.casters.size(); ++c) {
       const CasterLoops& caster = loops.casters[c];
       if (caster.loops.empty()) continue;
-      const float splitI = caster.low.z * (1.0f - kBehind);
+      const float margin = splitMargin(caster), splitI = caster.low.z - margin;
       CasterVolume volume{
-          .subLight = subLight, .caster = c, .extent = extentOf(caster, loops.light), .splitI = splitI};
+          .subLight = subLight, .caster = c, .extent = extentOf(caster, loops.light, space_), .splitI = splitI};
       if (volume.extent.nearest >= reach_.end) continue;
       // A little of both sides of the split, so that rounding leaves no receiver outside.
-      const double split = 1.0 / static_cast<double>(splitI), margin = 0.1 * kBehind * split;
+      const double from = heightOf(splitI + 0.1f * margin), until = heightOf(splitI - 0.1f * margin);
       volume.list = addList(caster, static_cast<std::uint8_t>(subLight), result_.lists);
-      addPart(volume, WedgePart::beside, volume.extent.nearest, split + margin);
-      if (caster.layerCount == 0) addPart(volume, WedgePart::beyond, split - margin, reach_.end);
+      addPart(volume, WedgePart::beside, volume.extent.nearest, until);
+      if (caster.layerCount == 0) addPart(volume, WedgePart::beyond, from, reach_.end);
       for (std::uint32_t l = 0; l < caster.layerCount; ++l) {
         const CasterLoops& layer = loops.layers[caster.firstLayer + l];
         if (layer.loops.empty()) continue;
         CasterVolume layerVolume{
-            .subLight = subLight, .caster = c, .extent = extentOf(layer, loops.light), .splitI = splitI};
+            .subLight = subLight, .caster = c, .extent = extentOf(layer, loops.light, space_), .splitI = splitI};
         layerVolume.list = addList(layer, static_cast<std::uint8_t>(subLight), result_.lists);
-        addPart(layerVolume, WedgePart::beyond, split - margin, reach_.end);
+        addPart(layerVolume, WedgePart::beyond, from, reach_.end);
       }
     }
   }
 
  private:
+  double heightOf(float i) const {
+    return static_cast<double>(i) + space_.originI > 0.0 ? space_.height(i) : reach_.end;
+  }
   void addPart(CasterVolume volume, WedgePart part, double from, double end) {
     volume.part = part;
     volume.from = from;
@@ -79,6 +83,7 @@ class Collector {
     if (volume.from < volume.end) result_.volumes.push_back(volume);
   }
   CasterVolumes& result_;
+  const ListSpace& space_;
   VolumeReach reach_;
 };
 
@@ -105,10 +110,10 @@ std::uint32_t assignBatches(std::span<CasterVolume> volumes) {
 }
 }  // namespace
 
-CasterVolumes casterVolumes(std::span<const SubLightLoops> subLights, const VolumeReach& reach,
-                            Batching batching) {
+CasterVolumes casterVolumes(std::span<const SubLightLoops> subLights, const ListSpace& space,
+                            const VolumeReach& reach, Batching batching) {
   CasterVolumes result;
-  Collector collector(result, reach);
+  Collector collector(result, space, reach);
   for (std::uint32_t s = 0; s < subLights.size(); ++s) {
     const std::size_t first = result.volumes.size();
     const bool enclosed = std::ranges::any_of(subLights[s].casters, &CasterLoops::enclosesLight);

@@ -35,7 +35,7 @@ enum class Batching {
 };
 
 /// Every caster has a volume for receivers at its own heights; behind it, it has another, or its layers have.
-CasterVolumes casterVolumes(std::span<const SubLightLoops> subLights, const VolumeReach& reach,
-                            Batching batching);
+CasterVolumes casterVolumes(std::span<const SubLightLoops> subLights, const ListSpace& space,
+                            const VolumeReach& reach, Batching batching);
 
 }  // namespace halfshadow::techniques

@@ -211,7 +211,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         // Only of its own tiles the patches are known.
         const bool own = choice == FacetChoice::asReceiversSee;
         add(simplify(*surface, facets, loops.light,
-                     own ? set : ReceiverSet{.box = receivers, .plane = set.plane}, choice, simplified));
+                     own ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
       }
     }
     if (full) {
@@ -223,7 +223,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
   }
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
-  list.apart = edges == ListedEdges::all && list.count > 0 &&
+  list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
+    return record.ti.z < receivers.iHigh;
+  });
+  list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
                (list.casters == 1 || castersApart(std::span(records).subspan(list.first), receivers));
   if (list.count > 0) records.back().end = CellRecord::End::list;
   return list;
@@ -252,8 +255,8 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
             continue;
           }
           lists.tiles[tile] = tileList(subLights, block,
-                                       {tiles.boxes[tile], surfaces.plane(), tiles.patchesOf(tile),
-                                        receiver.lift, surfaces.nextTile()},
+                                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile),
+                                        surfaces.nextTile()},
                                        edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
@@ -262,19 +265,22 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
     }
   }
   lists.oneSided = std::ranges::any_of(lists.records, &CellRecord::oneSided);
+  lists.amongReceivers = std::ranges::any_of(lists.tiles, &TileList::amongReceivers);
   return lists;
 }
 
-TangentRect shadowedTangents(std::span<const SubLightLoops> subLights) {
+TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double farthest) {
   TangentRect rect;
   for (const SubLightLoops& subLight : subLights) {
     for (const CasterLoops& caster : subLight.casters) {
-      if (caster.enclosesLight) return {.low = glm::dvec2(-1e9), .high = glm::dvec2(1e9)};
-      for (const glm::vec3& p : caster.points) {
+      if (caster.enclosesLight) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
+      for (const glm::vec3& point : caster.points) {
         // A receiver behind E is shadowed from light points up to 1 away: its tangent differs from E's by at
-        // most the light's half side seen from E.
-        rect.low = glm::min(rect.low, glm::dvec2(p.x - p.z, p.y - p.z));
-        rect.high = glm::max(rect.high, glm::dvec2(p.x + p.z, p.y + p.z));
+        // most the light's half side as it grows from E's height to the receiver's.
+        const glm::dvec3 p(point);
+        const double spread = std::max(p.z - farthest, 0.0);
+        rect.low = glm::min(rect.low, glm::dvec2(p) - spread);
+        rect.high = glm::max(rect.high, glm::dvec2(p) + spread);
       }
     }
   }

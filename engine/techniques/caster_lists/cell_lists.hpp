@@ -31,6 +31,8 @@ struct TileList {
   std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
   /// Of whole loops: no receiver of the tile sees two of its casters before the same point of the light.
   bool apart = false;
+  /// Some vertices may lie beside or behind a receiver of the tile, so that edges must be cut.
+  bool amongReceivers = false;
 };
 
 struct CellLists {
@@ -39,6 +41,7 @@ struct CellLists {
   std::uint32_t longestList = 0;
   std::size_t partialTiles = 0;  ///< tiles with a list
   bool oneSided = false;         ///< some record is
+  bool amongReceivers = false;   ///< some tile is
 };
 
 /// Which edges of a simplified loop are listed.
@@ -51,7 +54,6 @@ inline constexpr std::uint32_t kNoObject = ~0u;
 
 struct ListedReceiver {
   std::uint32_t ownObject = kNoObject;  ///< the receiver as a caster; then its tiles have patches
-  double lift = 0.0;                    ///< world units by which its fragments stand off their facets
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
@@ -60,6 +62,7 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
                     const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges);
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
-TangentRect shadowedTangents(std::span<const SubLightLoops> subLights);
+/// `farthest`: the least i of any receiver.
+TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double farthest);
 
 }  // namespace halfshadow::techniques

@@ -7,8 +7,9 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Shares of the receivers' range of reciprocal heights; beyond it a vertex is farther than every receiver.
-constexpr float kFarMargin = 1e-4f;
+/// Beyond this share of the receivers' range of reciprocal heights, and of their rounding, a vertex is farther
+/// than every receiver.
+constexpr float kFarMargin = 1e-3f, kFarRounding = 1e-5f;
 
 /// Faces of a caster up to which it counts as coarse. Convex casters of more, seen from the centre of a
 /// quarter of the light, are wrong by at most .034 on their own surfaces (762 faces), at a third of the
@@ -23,6 +24,88 @@ void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>&
     const bool aIn = a.z >= iLow, bIn = b.z >= iLow;
     if (aIn) out.push_back(a);
     if (aIn != bIn) out.push_back(glm::mix(a, b, (iLow - a.z) / (b.z - a.z)));
+  }
+}
+
+/// Vertices of a loop that lie outside by more than kFarOutside times the receivers' size and what the light
+/// spreads over at their height are cut off, kOutside sizes beyond the side: stored with few bits, they would
+/// move the edges that lead to them.
+constexpr float kFarOutside = 16.0f, kOutside = 4.0f;
+
+bool isPlanar(std::span<const glm::vec3> loop) {
+  const glm::dvec3 origin(loop[0]);
+  glm::dvec3 normal(0.0), size(0.0);
+  for (std::size_t k = 2; k < loop.size(); ++k) {
+    const glm::dvec3 a = glm::dvec3(loop[k - 1]) - origin, b = glm::dvec3(loop[k]) - origin;
+    normal += glm::cross(a, b);
+    size = glm::max(size, glm::max(glm::abs(a), glm::abs(b)));
+  }
+  const double reach = kPlaceRounding * glm::dot(glm::abs(normal), size + glm::abs(origin));
+  return std::ranges::all_of(
+      loop, [&](const glm::vec3& p) { return std::abs(glm::dot(normal, glm::dvec3(p) - origin)) <= reach; });
+}
+
+/// One side of the light for a set of receivers: what is outside by more than `margin` has negative `inside`.
+struct FarSide {
+  glm::dvec3 inward{0.0};
+  double bound = 0.0;
+  double inside(const glm::vec3& p) const { return glm::dot(inward, glm::dvec3(p)) + bound; }
+};
+
+/// Replaces the parts of `loop` outside `side` by chords along it. Of loops that are not planar only where
+/// both ends of the chord are before all receivers (see collapseRuns()).
+void cutSide(std::vector<glm::vec3>& loop, const FarSide& side, bool planar, float iHigh,
+             std::vector<glm::vec3>& out) {
+  const std::size_t count = loop.size();
+  std::size_t start = 0;
+  while (start < count && side.inside(loop[start]) < 0.0) ++start;
+  if (start == count) return;
+  const auto at = [&](std::size_t k) -> const glm::vec3& { return loop[(start + k) % count]; };
+  const auto crossing = [&](const glm::vec3& a, const glm::vec3& b) {
+    const double from = side.inside(a), to = side.inside(b);
+    return glm::vec3(glm::mix(glm::dvec3(a), glm::dvec3(b), from / (from - to)));
+  };
+  out.clear();
+  for (std::size_t k = 0; k < count;) {
+    out.push_back(at(k));
+    if (side.inside(at(++k)) >= 0.0) continue;
+    std::size_t end = k;
+    while (side.inside(at(end)) < 0.0) ++end;
+    const glm::vec3 leaves = crossing(at(k - 1), at(k)), returns = crossing(at(end - 1), at(end));
+    if (planar || std::min(leaves.z, returns.z) >= iHigh) {
+      out.push_back(leaves);
+      out.push_back(returns);
+    } else {
+      for (; k < end; ++k) out.push_back(at(k));
+    }
+    k = end;
+  }
+  loop.swap(out);
+}
+
+void cutFarOutside(std::vector<glm::vec3>& loop, const SubLight& light, const TangentBox& box,
+                   std::vector<glm::vec3>& scratch) {
+  const glm::vec2 extent = box.tHigh - box.tLow;
+  const float size = std::max({extent.x, extent.y, box.iHigh - box.iLow});
+  const glm::vec2 low = light.center - light.half, high = light.center + light.half;
+  const auto isFar = [&](const glm::vec3& p) {
+    const float above = p.z - box.iLow, reach = kFarOutside * (size + std::abs(above));
+    const glm::vec2 beyond = glm::max(glm::vec2(p) - box.tHigh - above * high, box.tLow + above * low - glm::vec2(p));
+    return std::max(beyond.x, beyond.y) > reach;
+  };
+  if (std::ranges::none_of(loop, isFar)) return;
+  const bool planar = isPlanar(loop);
+  const double margin = kOutside * size;
+  for (int axis = 0; axis < 2 && loop.size() >= 3; ++axis) {
+    for (const double sign : {1.0, -1.0}) {
+      // sign (t - X i) <= the largest of it over the box, and the margin.
+      const double edge = sign > 0.0 ? high[axis] : low[axis];
+      const double t = sign > 0.0 ? box.tHigh[axis] : -box.tLow[axis];
+      const double i = sign * edge > 0.0 ? box.iLow : box.iHigh;
+      FarSide side{.inward = {0.0, 0.0, sign * edge}, .bound = t - sign * edge * i + margin};
+      side.inward[axis] = -sign;
+      cutSide(loop, side, planar, box.iHigh, scratch);
+    }
   }
 }
 
@@ -93,7 +176,8 @@ int windingNumber(const std::vector<glm::vec3>& loop, const SubLight& light, con
 }
 
 float farEnd(const TangentBox& receivers) {
-  return receivers.iLow * (1.0f - kFarMargin);
+  return receivers.iLow - kFarMargin * (receivers.iHigh - receivers.iLow) -
+         kFarRounding * std::max(std::abs(receivers.iLow), std::abs(receivers.iHigh));
 }
 
 enum class LoopKind { whole, oneSided };
@@ -109,6 +193,7 @@ class Simplifier {
     thread_local std::vector<Judged> judged, collapsed;
     cutFar(loop, farEnd(receivers_), cut);
     if (cut.size() < 3) return;
+    cutFarOutside(cut, light_, receivers_, kept);
     judged.clear();
     unsigned common = ~0u;
     for (const glm::vec3& v : cut) {
@@ -173,7 +258,8 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 }
 
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
-                      std::span<const scene::PlacedCaster> casters, const SubLight& light) {
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light,
+                      const ListSpace& space) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
   std::uint32_t layersLeft = 0;
@@ -187,7 +273,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     for (std::uint32_t l = source.firstLoop; l < source.firstLoop + source.loopCount; ++l) {
       loop.clear();
       for (std::uint32_t k = 0; k < silhouettes.loops[l].count; ++k) {
-        loop.emplace_back(tangentPoint(glm::dvec3(silhouettes.points[silhouettes.loops[l].first + k])));
+        loop.emplace_back(space.tangentPoint(silhouettes.points[silhouettes.loops[l].first + k]));
       }
       caster.addLoop(loop);
     }

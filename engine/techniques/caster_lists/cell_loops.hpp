@@ -48,7 +48,8 @@ struct SubLightLoops {
 };
 /// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
-                      std::span<const scene::PlacedCaster> casters, const SubLight& light);
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light,
+                      const ListSpace& space);
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
 /// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.

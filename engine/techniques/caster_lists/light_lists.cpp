@@ -3,6 +3,7 @@
 #include "techniques/caster_lists/light_lists.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace halfshadow::techniques {
@@ -15,21 +16,82 @@ constexpr double kCasterTileShare = 0.5;
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
-/// Direction of a pixel's ray in the light's coordinates, from (x, y, 1) with x and y in [0, 1] over the
-/// view.
-glm::dmat3 pixelRays(const View& view, const scene::LightPlane& plane) {
+/// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x and
+/// y in [0, 1] over the view.
+std::array<glm::vec4, 3> pixelRays(const View& view, const glm::dmat4& homogeneousFromWorld) {
   const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
   const auto direction = [&](double x, double y) {
     const glm::dvec4 p = worldFromClip * glm::dvec4(x, y, 0.0, 1.0);
-    return plane.axes * (glm::dvec3(p) / p.w - view.eyeWorld);
+    return homogeneousFromWorld * glm::dvec4(glm::dvec3(p) / p.w - view.eyeWorld, 0.0);
   };
-  const glm::dvec3 corner = direction(-1, -1);
-  glm::dmat3 rays(direction(1, -1) - corner, direction(-1, 1) - corner, corner);
+  const glm::dvec4 corner = direction(-1, -1);
   // Only directions matter: at unit scale single precision has them all.
-  return rays / std::max(glm::length(corner), 1e-300);
+  const double unit = 1.0 / std::max(glm::length(corner), 1e-300);
+  return {glm::vec4(unit * (direction(1, -1) - corner)), glm::vec4(unit * (direction(-1, 1) - corner)),
+          glm::vec4(unit * corner)};
 }
 
+/// What makes the plane of a facet, in homogeneous (t, i), from a vertex of it and its normal, both in object
+/// space: there a wide ground's plane is as exact as its corners are.
+struct FacetPlanes {
+  glm::vec3 t[2];
+  glm::vec4 i, one;  ///< xyz + w · vertex, times the normal
+};
+FacetPlanes facetPlanes(const ListSpace& space, const glm::dmat4& worldFromObject) {
+  const glm::dmat4 rows = space.homogeneousFromWorld() * worldFromObject;
+  glm::dmat3 linear;
+  for (int column = 0; column < 3; ++column)
+    linear[column] = {rows[column].x, rows[column].y, rows[column].w};
+  const glm::dvec3 offset(rows[3].x, rows[3].y, rows[3].w);
+  const glm::dmat3 inverse = glm::inverse(linear);
+  const glm::dvec3 lightObject = -(inverse * offset);
+  const bool centred = space.originI > 0.0;
+  const glm::dvec3 originObject =
+      centred ? inverse * (glm::dvec3(0.0, 0.0, 1.0 / space.originI) - offset) : glm::dvec3(0.0);
+  const glm::dvec4 one = centred ? space.originI * glm::dvec4(originObject, -1.0) : glm::dvec4(inverse[2], 0.0);
+  double largest = std::max(glm::length(inverse[0]), glm::length(inverse[1]));
+  largest = std::max({largest, glm::length(glm::dvec3(one)), glm::length(lightObject)});
+  const double scale = 1.0 / std::max(largest, 1e-300);
+  return {{glm::vec3(scale * inverse[0]), glm::vec3(scale * inverse[1])},
+          glm::vec4(scale * glm::dvec4(lightObject, -1.0)),
+          glm::vec4(scale * one)};
+}
+
+/// Whether faces of the receiver may be seen from behind: it has openings, or the near plane opens it.
+bool maySeeBehind(const View& view, const DrawItem& item) {
+  if (!item.closed) return true;
+  return hiddenFaces(item, view.eyeWorld, view.nearReach) == gl::Cull::none &&
+         std::ranges::any_of(item.boundsWorld.corners(), [&](const glm::dvec3& corner) {
+           const glm::dvec4 clip = view.clipFromWorld * glm::dvec4(corner, 1.0);
+           return clip.z < -clip.w;
+         });
+}
+
+/// Where a box lies in (t, i), and its least i.
+struct Reach {
+  TangentRect rect;
+  double farthest = 1e300;
+  void include(const scene::Bounds& boundsWorld, const ListSpace& space, double minHeight) {
+    for (const glm::dvec3& corner : boundsWorld.corners()) {
+      glm::dvec3 abh = space.plane.fromWorld(corner);
+      if (abh.z < minHeight) {
+        rect = {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
+        continue;
+      }
+      const glm::dvec3 ti = space.tangentPoint(abh);
+      rect.low = glm::min(rect.low, glm::dvec2(ti));
+      rect.high = glm::max(rect.high, glm::dvec2(ti));
+      farthest = std::min(farthest, ti.z);
+    }
+  }
+};
+
 }  // namespace
+
+glm::vec4 listPlace(const LightFrame& frame, double minHeight) {
+  const auto bias = static_cast<float>(frame.settings.real("bias"));
+  return {static_cast<float>(minHeight), 2.0f * bias, bias, bias * static_cast<float>(kPlaceRounding)};
+}
 
 Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture) {
   if (texture && texture.desc().width == image.width && texture.desc().height == image.height) {
@@ -42,10 +104,31 @@ Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& tex
   return {};
 }
 
+bool LightLists::boundShadows(const LightFrame& frame) {
+  if (sceneKey_ == frame.sceneKey) return true;
+  sceneKey_ = frame.sceneKey;
+  // Of all objects, not of those in view, or tiles would follow the camera.
+  Reach reach;
+  for (const auto items : {frame.casters, frame.shadowlessReceivers}) {
+    for (const DrawItem& item : items) {
+      if (item.receives) reach.include(item.boundsWorld, loops_.space(), loops_.minHeight());
+    }
+  }
+  shadows_ = shadowedTangents(loops_.subLights(), reach.farthest);
+  const glm::dvec2 size =
+      glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
+  const double longer = std::max(size.x, size.y);
+  const bool same = longer == shadowSize_;
+  shadowSize_ = longer > 0.0 ? longer : 1.0;
+  return same;
+}
+
 Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
-  if (loops_.update(frame, request.subLights)) {
-    surfaces_ = NearSurfaces(placedCasters(frame), loops_.plane(), LightLoops::kMinHeight);
-    shadows_ = shadowedTangents(loops_.subLights());
+  const bool loopsChanged = loops_.update(frame, request.subLights);
+  if (loopsChanged) sceneKey_ = 0;
+  if (!boundShadows(frame)) receivers_.clear();
+  if (loopsChanged) {
+    surfaces_ = NearSurfaces(placedCasters(frame), loops_.space(), loops_.minHeight());
     receivers_.clear();
     encoded_.clear();
     std::vector<const void*> geometries;
@@ -54,8 +137,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     if (geometries != casters_) doublings_ = 0;
     casters_ = std::move(geometries);
   }
-  const glm::dvec2 size = shadows_.high - shadows_.low;
-  const double finest = std::max(size.x, size.y) / request.tiles;
+  const double finest = shadowSize_ / request.tiles;
   const gl::Limits& limits = frame.capabilities.limits;
   // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
   const int maxRows =
@@ -68,18 +150,22 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     for (const DrawItem& item : frame.receivers) {
       if (request.receivers == ListedReceivers::casting && !item.casts) continue;
       Receiver& cached = receivers_[item.geometry];
-      if (cached.revision != item.revision) {
+      const bool seenFromBehind = maySeeBehind(frame.view, item);
+      if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
         cached.revision = item.revision;
-        const ListedReceiver receiver{.ownObject = placedCasterOf(frame, item), .lift = loops_.lift()};
+        cached.seenFromBehind = seenFromBehind;
+        cached.casts = item.casts;
+        const ListedReceiver receiver{.ownObject = placedCasterOf(frame, item)};
         cached.tiles =
             receiverTiles({.mesh = item.sourceMesh,
                            .worldFromObject = item.worldFromObject,
-                           .closed = item.closed,
+                           .closed = !seenFromBehind,
                            .withPatches = receiver.ownObject != kNoObject},
-                          loops_.plane(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
-                          kMaxTiles, LightLoops::kMinHeight, loops_.lift());
+                          loops_.space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
+                          kMaxTiles, loops_.minHeight());
         cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges);
         changed = true;
+        if(getenv("DBGL")) { int os=0,al=0; for(auto&r:cached.lists.records){os+=r.oneSided;++al;} fprintf(stderr,"DBG casts %d closed %d behind %d tiles %dx%d partial %zu records %d onesided %d patches %zu origin %g\n",item.casts,item.closed,seenFromBehind,cached.tiles.columns,cached.tiles.rows,cached.lists.partialTiles,al,os,cached.tiles.patches.size(),loops_.space().originI);}
       }
       used.push_back(item.geometry);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
@@ -92,8 +178,6 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     if (encodeLists(receivers, maxRows, encoded)) {
       if (Status s = uploadList(frame.context, encoded.tiles, tiles_); !s) return s;
       if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
-      center_ = encoded.center;
-      step_ = encoded.step;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
       encoded_ = std::move(inSomeOrder);
       // The next lists are tried finer where these would have fitted.
@@ -121,36 +205,34 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   if (oneSided) shading.defines.push_back("HS_ONE_SIDED");
   shading.textures.push_back({.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_});
   shading.textures.push_back({.sampler = "u_cellLists", .resource = {}, .texture = &records_});
-  // Rows a, b, h, h: what the vertex shader hands on as (a, b, -, h).
-  const scene::LightPlane& plane = loops_.plane();
-  const glm::dmat3& axes = plane.axes;
-  const glm::dvec3 offset = plane.fromWorld(glm::dvec3(0.0));
-  for (int column = 0; column < 3; ++column) {
-    shading.mapFromWorld[column] = glm::dvec4(axes[column], axes[column].z);
-  }
-  shading.mapFromWorld[3] = glm::dvec4(offset, offset.z);
+  const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
+    return receiver.second.lists.amongReceivers && !receiver.second.casts;
+  });
+  if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
+  shading.defines.push_back("HS_LISTS");
+  shading.mapFromWorld = loops_.space().homogeneousFromWorld();
   const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.desc().width, tiles_.desc().height);
   const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
-  const glm::mat3 lift(loops_.lift() * loops_.lift() * axes * glm::transpose(axes));
-  // Vertices are stored to half a step.
-  const auto heightBias = static_cast<float>(2.0 * frame.settings.real("bias")) * step_.z;
-  const glm::mat3 rays(pixelRays(frame.view, plane));
-  const glm::vec3 eye(plane.fromWorld(frame.view.eyeWorld));
-  shading.setUniforms = [others = std::move(shading.setUniforms), lift, rays, eye,
-                         center = glm::vec4(center_, LightLoops::kMinHeight),
-                         step = glm::vec4(step_, heightBias), texel = glm::vec4(tileTexel, recordTexel)](
-                            gl::Program& program, gl::Context& context) {
+  const std::array<glm::vec4, 3> rays = pixelRays(frame.view, shading.mapFromWorld);
+  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(frame.view.eyeWorld, 1.0));
+  const glm::vec4 place = listPlace(frame, loops_.minHeight());
+  shading.setUniforms = [others = std::move(shading.setUniforms), rays, eye, place,
+                         texel = glm::vec4(tileTexel, recordTexel)](gl::Program& program,
+                                                                    gl::Context& context) {
     if (others) others(program, context);
     program.set(context, "u_cellTexel", texel);
-    program.set(context, "u_listCenter", center);
-    program.set(context, "u_listScale", step);
-    program.set(context, "u_lift", lift);
-    program.set(context, "u_rayLight", rays);
+    program.set(context, "u_listPlace", place);
+    program.set(context, "u_rayX", rays[0]);
+    program.set(context, "u_rayY", rays[1]);
+    program.set(context, "u_rayOrigin", rays[2]);
     program.set(context, "u_eyeLight", eye);
-    // The facet stream's gradient becomes that of i over t.
-    program.set(context, "u_vertexPlane", glm::vec4(-1.0f, 1.0f, 1.0f, 1e6f));
   };
   shading.setItemUniforms = [this](gl::Program& program, gl::Context& context, const DrawItem& item) {
+    const FacetPlanes planes = facetPlanes(loops_.space(), item.worldFromObject);
+    program.set(context, "u_facetT0", planes.t[0]);
+    program.set(context, "u_facetT1", planes.t[1]);
+    program.set(context, "u_facetI", planes.i);
+    program.set(context, "u_facetOne", planes.one);
     const auto found = receivers_.find(item.geometry);
     if (found == receivers_.end() || found->second.tiles.empty()) {
       program.set(context, "u_tileAtlas", glm::vec4(0.0f));

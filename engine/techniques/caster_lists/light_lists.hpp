@@ -28,6 +28,11 @@ struct ListRequest {
   std::string_view tilesKey;  ///< the setting that says so, for messages
 };
 
+/// What shaders with list_vertices.glsl need to know of a fragment's place: the least height of a receiver; by
+/// how many steps vertices are nearer to its height than stored; by how many steps, and by what share of its
+/// (t, i), it stands off its facet.
+glm::vec4 listPlace(const LightFrame& frame, double minHeight);
+
 /// Into `texture`, made anew when the size differs. Errors: outOfMemory.
 Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture);
 
@@ -45,21 +50,26 @@ class LightLists {
  private:
   struct Receiver {
     std::uint64_t revision = 0;
+    bool seenFromBehind = false, casts = false;
     ReceiverTiles tiles;
     CellLists lists;
     glm::ivec2 firstTexel{0};
   };
 
+  /// False when what bounds the tiles changed.
+  bool boundShadows(const LightFrame& frame);
+
   LightLoops loops_;
   NearSurfaces surfaces_;
+  std::uint64_t sceneKey_ = 0;
   TangentRect shadows_;
+  double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers
   double tileSize_ = 1.0;
   int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
   std::vector<const void*> casters_;           ///< by their geometry
   std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
   std::vector<const void*> encoded_;           ///< those in the textures, by address
   gl::Texture tiles_, records_;
-  glm::vec3 center_{0.0f}, step_{1.0f};
 };
 
 }  // namespace halfshadow::techniques

@@ -2,21 +2,45 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/caster_lists/light_loops.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/frame_planner.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-/// A point light counts as a square this wide, in units of height: hard shadows to a fraction of a pixel.
-constexpr double kMinHalfLength = 1e-4;
+/// A point light counts as a square this wide, in units of the distance to the nearest caster's middle. What
+/// single precision makes of a receiver's place is not much less.
+constexpr double kMinHalfLength = 2e-6;
+/// In half sides of the light.
+constexpr double kNearestCut = 1e-3;
+/// Casters that lie within so much of their middle's height have it for the origin of (t, i).
+constexpr double kShallow = 0.25;
 
-/// About a thousandth of the casters' size, in steps of ten.
-double liftDistance(std::span<const DrawItem> casters, double bias) {
-  scene::Bounds bounds;
-  for (const DrawItem& caster : casters) bounds.include(caster.boundsWorld);
-  const double radius = bounds.radius();
-  return radius > 0.0 ? bias * 0.002 * std::pow(10.0, std::floor(std::log10(radius))) : 0.0;
+/// No caster that is far away, or wide, makes this larger.
+double nearestDistance(std::span<const DrawItem> casters, const glm::dvec3& lightCenterWorld) {
+  double nearest = 1e300;
+  for (const DrawItem& caster : casters) {
+    const glm::dvec3 middle = caster.boundsWorld.center() - lightCenterWorld;
+    nearest = std::min(nearest, std::max(glm::length(middle), caster.boundsWorld.radius()));
+  }
+  return nearest;
+}
+
+ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> casters) {
+  ListSpace space(plane);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const DrawItem& caster : casters) {
+    for (const glm::dvec3& corner : caster.boundsWorld.corners()) {
+      low = glm::min(low, plane.fromWorld(corner));
+      high = glm::max(high, plane.fromWorld(corner));
+    }
+  }
+  const glm::dvec3 middle = 0.5 * (low + high);
+  if (getenv("NOC") || !(high.z - middle.z <= kShallow * middle.z)) return space;
+  space.originT = glm::dvec2(middle) / middle.z;
+  space.originI = 1.0 / middle.z;
+  return space;
 }
 }  // namespace
 
@@ -26,16 +50,18 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
   const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
-  lift_ = liftDistance(frame.casters, frame.settings.real("bias"));
-  plane_ = scene::LightPlane(frame.light, unit, kMinHalfLength * unit);
+  const double minHalf = kMinHalfLength * nearestDistance(frame.casters, frame.light.centerWorld);
+  space_ = spaceOf(scene::LightPlane(frame.light, unit, minHalf), frame.casters);
+  const scene::LightPlane& plane = space_.plane;
+  minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;
   const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
   subLights_.clear();
   silhouettes_.resize(subLights.size());
   for (std::size_t i = 0; i < subLights.size(); ++i) {
     const SubLight& subLight = subLights[i];
-    subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane_, subLight.center.x, subLight.center.y,
-                                                        kMinHeight, scene::LayerSplit::alongside),
-                                 casters, subLight));
+    subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane, subLight.center.x, subLight.center.y,
+                                                        minHeight_, scene::LayerSplit::alongside),
+                                 casters, subLight, space_));
   }
   return true;
 }

@@ -12,24 +12,21 @@ namespace halfshadow::techniques {
 
 class LightLoops {
  public:
-  /// Heights are in units of the casters' farthest distance, or up to twice that. What is nearer to the
-  /// light's plane is cut.
-  static constexpr double kMinHeight = 1e-3;
-
   /// True when they were found anew: light, casters or settings changed.
   bool update(const LightFrame& frame, std::span<const SubLight> subLights);
-  const scene::LightPlane& plane() const { return plane_; }
+  const scene::LightPlane& plane() const { return space_.plane; }
+  const ListSpace& space() const { return space_; }
+  /// What is nearer to the light's plane is cut: a thousandth of the light's smaller half side.
+  double minHeight() const { return minHeight_; }
   /// One entry per sub-light.
   std::span<const SubLightLoops> subLights() const { return subLights_; }
-  /// World distance by which receivers that cast are moved off their surface, along its normal.
-  double lift() const { return lift_; }
 
  private:
   std::uint64_t key_ = 0;
-  scene::LightPlane plane_;
+  ListSpace space_;
+  double minHeight_ = 1.0;
   std::vector<scene::LightSilhouetteCache> silhouettes_;
   std::vector<SubLightLoops> subLights_;
-  double lift_ = 0.0;
 };
 
 }  // namespace halfshadow::techniques

@@ -7,55 +7,74 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Vertices this much nearer to the light than the farthest one are coded with a coarser step: they project
-/// far outside the light, or their casters touch it.
-constexpr float kFineReach = 8.0f;
-
 /// Widest grid plus room: tiles of several receivers stand side by side.
 constexpr int kTileImageWidth = 1024;
+
+/// Exponents of steps, as stored.
+constexpr int kExponentBias = 128;
+/// A centre is counted in so many steps.
+constexpr float kCenterSteps = 256.0f;
+/// The largest factor of a step: the square of a byte.
+constexpr float kLargestScale = 255.0f * 255.0f;
+
+/// Vertices farther from the receivers than the nearest one, as seen in i, by this factor are coded with a
+/// coarser step: what they project to is known to the same share.
+constexpr float kFineReach = 8.0f;
 
 struct Range {
   glm::vec3 low{1e30f}, high{-1e30f};
   void include(const glm::vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
 };
 
-Range fineRange(std::span<const ReceiverLists> receivers) {
-  float farthest = 1e30f;
-  for (const ReceiverLists& receiver : receivers) {
-    for (const CellRecord& record : receiver.lists->records) farthest = std::min(farthest, record.ti.z);
+/// How the vertices of one list are stored: about the middle of those that are not much nearer to the light
+/// than the others, so that neither far casters nor wide receivers make a near vertex coarse.
+EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
+  float farthest = 1e30f, nearest = -1e30f;
+  for (const CellRecord& record : records) {
+    farthest = std::min(farthest, record.ti.z);
+    nearest = std::max(nearest, record.ti.z);
   }
-  Range range;
-  for (const ReceiverLists& receiver : receivers) {
-    for (const CellRecord& record : receiver.lists->records) {
-      if (record.ti.z <= farthest * kFineReach) range.include(record.ti);
-    }
+  const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
+  Range fine;
+  for (const CellRecord& record : records) {
+    // Receivers may stand on the facets of one-sided loops, off by no more than a step.
+    if (record.ti.z <= fineUpTo || record.oneSided) fine.include(record.ti);
   }
-  return range;
+  EncodedLists::Placed placed;
+  placed.center = 0.5f * (fine.low + fine.high);
+  glm::vec3 least(0.0f);
+  for (const CellRecord& record : records) least = glm::max(least, glm::abs(record.ti - placed.center));
+  least = glm::max(least / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
+  // The centre must be in reach. That step is what single precision knows of such coordinates.
+  least = glm::max(least, glm::abs(placed.center) / (32766.0f * kCenterSteps));
+  const auto stepAbove = [](float length) {
+    const int exponent = static_cast<int>(std::ceil(std::log2(std::max(length, 1e-36f))));
+    return std::exp2(static_cast<float>(std::clamp(exponent, -kExponentBias + 4, kExponentBias - 2)));
+  };
+  const float along = stepAbove(std::max(least.x, least.y));
+  placed.step = {along, along, stepAbove(least.z)};
+  placed.center = glm::round(placed.center / (kCenterSteps * placed.step)) * kCenterSteps * placed.step;
+  return placed;
 }
 
-/// The step of each coordinate: fine, and wide enough for the coarsest code to reach every vertex, since a
-/// clamped coordinate would turn edges.
-glm::vec3 stepOf(std::span<const ReceiverLists> receivers, const Range& fine, const glm::vec3& center) {
-  glm::vec3 farthest(0.0f);
-  for (const ReceiverLists& receiver : receivers) {
-    for (const CellRecord& record : receiver.lists->records)
-      farthest = glm::max(farthest, glm::abs(record.ti - center));
-  }
-  return glm::max(glm::max((fine.high - fine.low) / 65534.0f, farthest / (32766.0f * 255.0f)),
-                  glm::vec3(1e-12f));
+void putCode(float value, std::uint8_t* texels) {
+  const int code = static_cast<int>(std::clamp(std::round(value), -32768.0f, 32767.0f)) + 32768;
+  texels[0] = static_cast<std::uint8_t>(code >> 8);
+  texels[1] = static_cast<std::uint8_t>(code & 255);
 }
 
-void encodeRecord(const CellRecord& record, const glm::vec3& center, const glm::vec3& step,
-                  std::uint8_t* texels) {
-  const glm::vec3 offset = (record.ti - center) / step;
+void encodePlacement(const EncodedLists::Placed& placed, std::uint8_t* texels) {
+  const glm::vec3 center = placed.center / (kCenterSteps * placed.step);
+  for (int k = 0; k < 3; ++k) putCode(center[k], texels + 2 * k);
+  texels[6] = static_cast<std::uint8_t>(std::ilogb(placed.step.x) + kExponentBias);
+  texels[7] = static_cast<std::uint8_t>(std::ilogb(placed.step.z) + kExponentBias);
+}
+
+void encodeRecord(const CellRecord& record, const EncodedLists::Placed& placed, std::uint8_t* texels) {
+  const glm::vec3 offset = (record.ti - placed.center) / placed.step;
   const float largest = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
-  const float scale = std::clamp(std::ceil(largest / 32767.0f), 1.0f, 255.0f);
-  for (int k = 0; k < 3; ++k) {
-    const auto value =
-        static_cast<int>(std::clamp(std::round(offset[k] / scale), -32768.0f, 32767.0f)) + 32768;
-    texels[2 * k] = static_cast<std::uint8_t>(value >> 8);
-    texels[2 * k + 1] = static_cast<std::uint8_t>(value & 255);
-  }
+  const float scale = std::clamp(std::ceil(std::sqrt(largest / 32767.0f)), 1.0f, 255.0f);
+  for (int k = 0; k < 3; ++k) putCode(offset[k] / (scale * scale), texels + 2 * k);
   texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
                                         (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
                                         (record.oneSided ? 8 : 0) | static_cast<int>(record.end));
@@ -84,15 +103,13 @@ ListImage placeTiles(std::span<const ReceiverLists> receivers, std::vector<glm::
 bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedLists& result) {
   result = {};
   std::size_t recordCount = 0;
-  for (const ReceiverLists& receiver : receivers) recordCount += receiver.lists->records.size();
+  for (const ReceiverLists& receiver : receivers) {
+    recordCount += receiver.lists->records.size();
+    for (const TileList& list : receiver.lists->tiles) recordCount += list.count > 0;
+  }
   const std::size_t rows = std::max<std::size_t>((recordCount + kRecordsPerRow - 1) / kRecordsPerRow, 1);
   if (rows > static_cast<std::size_t>(maxRows)) return false;
   result.rows = rows;
-  if (recordCount > 0) {
-    const Range range = fineRange(receivers);
-    result.center = 0.5f * (range.low + range.high);
-    result.step = stepOf(receivers, range, result.center);
-  }
   // Rows grow in powers of two, so that the texture seldom changes its size.
   std::size_t height = 1;
   while (height < rows) height *= 2;
@@ -104,25 +121,28 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   std::size_t next = 0;
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const ReceiverLists& receiver = receivers[r];
-    for (std::size_t k = 0; k < receiver.lists->records.size(); ++k) {
-      encodeRecord(receiver.lists->records[k], result.center, result.step,
-                   &result.records.rgba[(next + k) * 8]);
-    }
     for (std::size_t t = 0; t < receiver.lists->tiles.size(); ++t) {
       const TileList& list = receiver.lists->tiles[t];
-      const std::size_t record = next + list.first;
       const std::size_t x =
           static_cast<std::size_t>(result.firstTexel[r].x) + t % std::size_t(receiver.columns);
       const std::size_t y =
           static_cast<std::size_t>(result.firstTexel[r].y) + t / std::size_t(receiver.columns);
       std::uint8_t* texel = &result.tiles.rgba[(y * std::size_t(kTileImageWidth) + x) * 4];
-      texel[0] = static_cast<std::uint8_t>(record % kRecordsPerRow);
-      texel[1] = static_cast<std::uint8_t>(record / kRecordsPerRow & 255);
-      texel[2] = static_cast<std::uint8_t>(record / kRecordsPerRow >> 8);
-      texel[3] =
-          static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) | (list.apart ? 32 : 0));
+      texel[0] = static_cast<std::uint8_t>(next % kRecordsPerRow);
+      texel[1] = static_cast<std::uint8_t>(next / kRecordsPerRow & 255);
+      texel[2] = static_cast<std::uint8_t>(next / kRecordsPerRow >> 8);
+      texel[3] = static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) |
+                                           (list.apart ? 32 : 0) | (list.amongReceivers ? 64 : 0));
+      EncodedLists::Placed& placed = result.lists.emplace_back();
+      if (list.count == 0) continue;
+      const auto records = std::span(receiver.lists->records).subspan(list.first, list.count);
+      placed = placementOf(records);
+      placed.firstRecord = static_cast<std::uint32_t>(next);
+      encodePlacement(placed, &result.records.rgba[next++ * 8]);
+      for (const CellRecord& record : records) {
+        encodeRecord(record, placed, &result.records.rgba[next++ * 8]);
+      }
     }
-    next += receiver.lists->records.size();
   }
   return true;
 }

@@ -9,13 +9,16 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Shares of the lift within which single precision may put a fragment on either side of a plane.
+/// Share of the lift within which rounding may put a fragment on either side of a plane.
 constexpr double kUnsure = 0.25;
 /// Clusters whose normals lie within 18 degrees of their mean count as even: a chord across one is its
 /// contour to a twentieth of its size.
 constexpr float kEven = 0.95f;
 /// Radii of a patch from its middle from which on it is listed whole.
 constexpr double kFarPatch = 1.25;
+
+/// In place of a point: the vertex lies below the least height.
+constexpr std::uint32_t kBelow = kNoFacet - 1;
 
 int judge(double value, double reach) {
   return value > reach ? 1 : value < -reach ? -1 : 0;
@@ -40,22 +43,48 @@ int sideOf(const glm::dvec4& plane, const TangentBox& box) {
   return judge(glm::dot(linear, glm::dvec3(box.center())) + plane.z, glm::dot(glm::abs(linear), reach));
 }
 
+glm::dvec3 linearOf(const glm::dvec4& plane) {
+  return {plane.x, plane.y, plane.w};
+}
+double valueAt(const glm::dvec4& plane, const glm::dvec3& ti) {
+  return glm::dot(linearOf(plane), ti) + plane.z;
+}
+
+/// Whether the facet lies in the patch's plane, to what single precision tells.
+bool isCoplanar(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverPatch& patch) {
+  const glm::dvec3 linear = glm::abs(linearOf(patch.plane));
+  const double patchRounding = glm::dot(linear, glm::abs(patch.lift));
+  return std::ranges::all_of(facet.vertex, [&](std::uint32_t v) {
+    const glm::dvec3 point(surface.points[v]);
+    const double rounding = patchRounding + kPlaceRounding * glm::dot(linear, glm::abs(point));
+    return std::abs(valueAt(patch.plane, point)) <= kUnsure * rounding;
+  });
+}
+
 /// The same for lifted fragments of patches, one by one.
-int sideOf(const NearSurface::Facet& facet, bool closed, const ReceiverSet& receivers) {
+int sideOf(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverSet& receivers) {
   const glm::dvec4& plane = facet.plane;
-  int side = 2;
+  const glm::dvec3 linear = linearOf(plane);
+  int side = kOwnFacet;
   for (const ReceiverPatch& patch : receivers.patches) {
-    const double lifted = receivers.lift * glm::dot(facet.normalWorld, patch.normalWorld);
-    const double unsure = kUnsure * receivers.lift;
-    const double least = closed ? lifted - unsure : -std::abs(lifted) - unsure;
-    const double most = closed ? lifted + unsure : std::abs(lifted) + unsure;
+    const double lifted = glm::dot(linear, patch.lift);
+    const double unsure = kUnsure * glm::dot(glm::abs(linear), glm::abs(patch.lift));
+    const double least = patch.eitherSide ? -std::abs(lifted) - unsure : lifted - unsure;
+    const double most = patch.eitherSide ? std::abs(lifted) + unsure : lifted + unsure;
+    const auto vote = [&](int here) {
+      const bool agrees = here != 0 && (side == kOwnFacet || side == here);
+      side = agrees ? here : 0;
+      return agrees;
+    };
+    if (isCoplanar(surface, facet, patch)) {
+      if (!patch.eitherSide && !vote(lifted > 0.0 ? 1 : -1)) return 0;
+      continue;
+    }
     for (int corner = 0; corner < 4; ++corner) {
       const glm::dvec2 t(corner & 1 ? patch.high.x : patch.low.x, corner & 2 ? patch.high.y : patch.low.y);
       const double i = std::clamp(patch.base + glm::dot(patch.gradient, t), patch.iLow, patch.iHigh);
-      const double value = plane.x * t.x + plane.y * t.y + plane.z + plane.w * i;
-      const int here = value + least * i > 0.0 ? 1 : value + most * i < 0.0 ? -1 : 0;
-      if (here == 0 || (side != 2 && side != here)) return 0;
-      side = here;
+      const double value = valueAt(plane, {t, i});
+      if (!vote(value + least > 0.0 ? 1 : value + most < 0.0 ? -1 : 0)) return 0;
     }
   }
   return side;
@@ -66,26 +95,24 @@ int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverS
   if (receivers.patches.empty()) return sideOf(facet.plane, receivers.box);
   if (surface.sides.size() < surface.facets.size()) surface.sides.resize(surface.facets.size());
   NearSurface::Side& known = surface.sides[f];
-  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(facet, surface.closed, receivers)};
+  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(surface, facet, receivers)};
   return known.side;
 }
 
 /// Whether all of the light's part lies in front of every patch: then what is behind all of them hides
 /// nothing of it from any.
 bool lightIsBefore(const ReceiverSet& receivers, const SubLight& light) {
-  const scene::LightPlane& plane = receivers.plane;
   return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
-    const double u = glm::dot(patch.normalWorld, plane.halfU), v = glm::dot(patch.normalWorld, plane.halfV);
-    return light.center.x * u + light.center.y * v - light.half * (std::abs(u) + std::abs(v)) >
-           patch.planeDistance + receivers.lift;
+    return !patch.eitherSide && sideOf(patch.plane, light) > 0;
   });
 }
 
 bool behindAll(const NearSurface& surface, const NearSurface::Facet& facet, const ReceiverSet& receivers) {
-  const double highest = (1.0 - kUnsure) * receivers.lift;
   return std::ranges::all_of(receivers.patches, [&](const ReceiverPatch& patch) {
+    const glm::dvec3 linear = glm::abs(linearOf(patch.plane));
+    const double highest = (1.0 - kUnsure) * glm::dot(linear, glm::abs(patch.lift));
     return std::ranges::all_of(facet.vertex, [&](std::uint32_t v) {
-      return glm::dot(patch.normalWorld, surface.pointsWorld[v]) - patch.planeDistance < highest;
+      return valueAt(patch.plane, glm::dvec3(surface.points[v])) < highest;
     });
   });
 }
@@ -160,7 +187,8 @@ void measurePatches(NearSurface& surface) {
 /// A chord stands for a patch's contour where no receiver is near enough to tell them apart.
 bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
   const auto toWorld = [&](const glm::dvec3& ti) {
-    return receivers.plane.toWorld({ti.x / ti.z, ti.y / ti.z, 1.0 / ti.z}) - receivers.plane.centerWorld;
+    const scene::LightPlane& plane = receivers.space.plane;
+    return plane.toWorld(receivers.space.lightPoint(ti)) - plane.centerWorld;
   };
   const TangentBox& box = receivers.box;
   const glm::dvec3 middle = toWorld(glm::dvec3(box.center()));
@@ -169,8 +197,9 @@ bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
 }
 }  // namespace
 
-NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const scene::LightPlane& plane,
+NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
                         double minHeight) {
+  const scene::LightPlane& plane = space.plane;
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
   const scene::CasterPart& own = mesh.parts()[part];
   const glm::dmat3 linear(caster.worldFromObject);
@@ -180,38 +209,64 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   const bool turned = glm::determinant(linear) > 0.0;
 
   NearSurface surface{.closed = own.closed, .convex = own.convex};
+  std::vector<glm::dvec3> abh(mesh.positions().size());
   std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cutOf;  // of edges, by their vertices
+  const auto addPoint = [&](const glm::dvec3& p) {
+    surface.points.emplace_back(space.tangentPoint(p));
+    surface.pointsWorld.push_back(plane.toWorld(p) - plane.centerWorld);
+    return static_cast<std::uint32_t>(surface.points.size() - 1);
+  };
+  const auto isAbove = [&](std::uint32_t v) { return abh[v].z >= minHeight; };
+  const auto cutPoint = [&](std::uint32_t v, std::uint32_t w) {
+    const auto [found, isNew] = cutOf.try_emplace(std::minmax(v, w));
+    const glm::dvec3 &from = abh[found->first.first], &to = abh[found->first.second];
+    if (isNew) found->second = addPoint(glm::mix(from, to, (minHeight - from.z) / (to.z - from.z)));
+    return found->second;
+  };
+  // What reaches through the plane h = minHeight is cut: of such a face one or two facets are left.
+  std::vector<std::uint32_t> firstFacet(own.faceCount + 1, 0), corners;
   surface.facets.reserve(own.faceCount);
-  for (std::uint32_t f = own.firstFace; f < own.firstFace + own.faceCount; ++f) {
-    NearSurface::Facet facet{
-        .beyond = {kNoFacet, kNoFacet, kNoFacet}, .low = glm::vec3(1e30f), .high = glm::vec3(-1e30f)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t v = mesh.faces()[f][turned ? 2 - k : k];
-      if (pointOf[v] == kNoFacet) {
-        const glm::dvec3 abh = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
-        if (abh.z < minHeight) return {};
-        pointOf[v] = static_cast<std::uint32_t>(surface.points.size());
-        surface.points.emplace_back(tangentPoint(abh));
-        surface.pointsWorld.push_back(plane.toWorld(abh) - plane.centerWorld);
-      }
-      facet.vertex[k] = pointOf[v];
-      facet.low = glm::min(facet.low, surface.points[pointOf[v]]);
-      facet.high = glm::max(facet.high, surface.points[pointOf[v]]);
+  for (std::uint32_t face = 0; face < own.faceCount; ++face) {
+    const glm::uvec3& vertices = mesh.faces()[own.firstFace + face];
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = vertices[k];
+      if (pointOf[v] != kNoFacet) continue;
+      abh[v] = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
+      pointOf[v] = isAbove(v) ? addPoint(abh[v]) : kBelow;
     }
-    const auto at = [&](std::size_t k) { return surface.pointsWorld[facet.vertex[k]]; };
-    // Outward: the vertices run counter-clockwise in (a, b), which is clockwise for the light that looks at
-    // them.
-    const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
-    const glm::dvec3 normal = cross / std::max(glm::length(cross), 1e-300);
-    facet.normalWorld = normal;
-    facet.plane = {glm::dot(normal, plane.halfU), glm::dot(normal, plane.halfV),
-                   plane.heightUnit * glm::dot(normal, plane.normal), -glm::dot(normal, at(0))};
-    surface.facets.push_back(facet);
+    corners.clear();
+    for (int k = 0; k < 3; ++k) {
+      const std::uint32_t v = vertices[turned ? 2 - k : k], w = vertices[turned ? (4 - k) % 3 : (k + 1) % 3];
+      if (isAbove(v)) corners.push_back(pointOf[v]);
+      if (isAbove(v) != isAbove(w)) corners.push_back(cutPoint(v, w));
+    }
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      NearSurface::Facet facet{.vertex = {corners[0], corners[k - 1], corners[k]},
+                               .beyond = {kNoFacet, kNoFacet, kNoFacet},
+                               .low = glm::vec3(1e30f),
+                               .high = glm::vec3(-1e30f)};
+      for (const std::uint32_t v : facet.vertex) {
+        facet.low = glm::min(facet.low, surface.points[v]);
+        facet.high = glm::max(facet.high, surface.points[v]);
+      }
+      const auto at = [&](std::size_t c) { return surface.pointsWorld[facet.vertex[c]]; };
+      // Outward: the vertices run counter-clockwise in (a, b), which is clockwise for the light that looks at
+      // them.
+      const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
+      facet.plane = space.planeThrough(cross / std::max(glm::length(cross), 1e-300), at(0));
+      // The two halves of a cut face meet along its diagonal.
+      const auto number = static_cast<std::uint32_t>(surface.facets.size());
+      if (k == 3) facet.beyond[0] = number - 1, surface.facets.back().beyond[2] = number;
+      surface.facets.push_back(facet);
+    }
+    firstFacet[face + 1] = static_cast<std::uint32_t>(surface.facets.size());
   }
   for (const scene::FaceCluster& cluster : mesh.clusters().subspan(own.firstCluster, own.clusterCount)) {
-    for (std::uint32_t k = 0; k < cluster.faceCount; ++k) {
-      const std::uint32_t f = cluster.firstFace - own.firstFace + k;
-      if (k == 0 || cluster.cosAngle < kEven) surface.patches.push_back({.firstFacet = f});
+    const std::uint32_t first = cluster.firstFace - own.firstFace;
+    const std::uint32_t end = firstFacet[first + cluster.faceCount];
+    for (std::uint32_t f = firstFacet[first]; f < end; ++f) {
+      if (f == firstFacet[first] || cluster.cosAngle < kEven) surface.patches.push_back({.firstFacet = f});
       NearSurface::Patch& patch = surface.patches.back();
       ++patch.facetCount;
       patch.low = glm::min(patch.low, surface.facets[f].low);
@@ -220,25 +275,32 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
     }
   }
   measurePatches(surface);
-  const auto join = [&](std::uint32_t f, std::uint32_t from, std::uint32_t to, std::uint32_t beyond) {
-    NearSurface::Facet& facet = surface.facets[f];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t p = facet.vertex[k], q = facet.vertex[(k + 1) % 3];
-      if ((p == from && q == to) || (p == to && q == from)) facet.beyond[k] = beyond;
+  /// The facet of a face that has this edge, and the edge's place there.
+  const auto facetWith = [&](std::uint32_t face, std::uint32_t from, std::uint32_t to) {
+    for (std::uint32_t f = firstFacet[face]; f < firstFacet[face + 1]; ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint32_t p = surface.facets[f].vertex[k], q = surface.facets[f].vertex[(k + 1) % 3];
+        if ((p == from && q == to) || (p == to && q == from)) return std::pair(f, k);
+      }
     }
+    return std::pair(kNoFacet, std::size_t{0});
   };
   for (const scene::EdgeRecord& edge : mesh.edges().subspan(own.firstEdge, own.edgeCount)) {
-    if (edge.opposite == scene::kNoFace) continue;
-    const std::uint32_t a = edge.face - own.firstFace, b = edge.opposite - own.firstFace;
-    join(a, pointOf[edge.from], pointOf[edge.to], b);
-    join(b, pointOf[edge.from], pointOf[edge.to], a);
+    if (edge.opposite == scene::kNoFace || (!isAbove(edge.from) && !isAbove(edge.to))) continue;
+    const std::uint32_t from = isAbove(edge.from) ? pointOf[edge.from] : cutPoint(edge.from, edge.to);
+    const std::uint32_t to = isAbove(edge.to) ? pointOf[edge.to] : cutPoint(edge.from, edge.to);
+    const auto [a, placeA] = facetWith(edge.face - own.firstFace, from, to);
+    const auto [b, placeB] = facetWith(edge.opposite - own.firstFace, from, to);
+    if (a == kNoFacet || b == kNoFacet) continue;
+    surface.facets[a].beyond[placeA] = b;
+    surface.facets[b].beyond[placeB] = a;
   }
   return surface;
 }
 
 const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part) {
   const auto [found, isNew] = made_.try_emplace({object, part});
-  if (isNew) found->second = nearSurface(casters_[object], part, plane_, minHeight_);
+  if (isNew) found->second = nearSurface(casters_[object], part, space_, minHeight_);
   return found->second;
 }
 
@@ -262,8 +324,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
                       std::vector<std::uint32_t>& result) {
   result.clear();
   const OuterSides outer(light, receivers.box);
-  const bool lightBefore = surface.closed && choice == FacetChoice::asReceiversSee &&
-                           !receivers.patches.empty() && lightIsBefore(receivers, light);
+  const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
+                           lightIsBefore(receivers, light);
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
@@ -275,6 +337,7 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
     if (surface.closed && choice == FacetChoice::asLightSees && !sees(facet.plane, light)) continue;
     if (lightBefore && behindAll(surface, facet, receivers)) continue;
     const int receiverSide = sideOfReceivers(surface, f, receivers);
+    if (receiverSide == kOwnFacet) continue;
     // No ray passes a plane that has both its ends on one side.
     if (lightSide * receiverSide > 0) continue;
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;

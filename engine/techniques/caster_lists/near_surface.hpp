@@ -22,6 +22,8 @@
 namespace halfshadow::techniques {
 
 inline constexpr std::uint32_t kNoFacet = ~0u;
+/// In place of a side: all receivers lie in the facet's plane and may be seen from both sides.
+inline constexpr int kOwnFacet = 2;
 
 /// The faces of one part of a caster in (t, i). Where the light is on a facet's outer side its vertices run
 /// counter-clockwise around what it covers for receivers on the inner side.
@@ -32,7 +34,6 @@ struct NearSurface {
     /// Signed distance from its plane, outward positive, times the reciprocal height of a point (t, i):
     /// dot(plane, (t.x, t.y, 1, i)), world units.
     glm::dvec4 plane{0.0};
-    glm::dvec3 normalWorld{0.0};      ///< unit, outward
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds in (t, i)
     std::uint32_t patch = 0;          ///< facets of one patch follow each other and are about even
   };
@@ -50,32 +51,32 @@ struct NearSurface {
   /// Working memory: on which side of each facet the receivers of a tile lie, asked for by each sub-light.
   struct Side {
     std::uint64_t tile = 0;
-    int side = 0;
+    int side = 0;  ///< 1 all outside, -1 all inside, 0 some on either, kOwnFacet
   };
   mutable std::vector<Side> sides;
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
 };
 
-/// No facets where the part reaches through the plane h = minHeight.
-NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const scene::LightPlane& plane,
+/// What reaches through the plane h = minHeight is cut there.
+NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
                         double minHeight);
 
 /// Surfaces of one light's casters, each made when first asked for.
 class NearSurfaces {
  public:
   NearSurfaces() = default;
-  NearSurfaces(std::span<const scene::PlacedCaster> casters, const scene::LightPlane& plane, double minHeight)
-      : casters_(casters.begin(), casters.end()), plane_(plane), minHeight_(minHeight) {}
+  NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space, double minHeight)
+      : casters_(casters.begin(), casters.end()), space_(space), minHeight_(minHeight) {}
   /// `object`: index of the caster. The reference lasts as long as this object.
   const NearSurface& of(std::uint32_t object, std::uint32_t part);
-  const scene::LightPlane& plane() const { return plane_; }
+  const ListSpace& space() const { return space_; }
   /// For ReceiverSet::tile.
   std::uint64_t nextTile() { return ++tile_; }
 
  private:
   std::vector<scene::PlacedCaster> casters_;
-  scene::LightPlane plane_;
+  ListSpace space_;
   double minHeight_ = 0.0;
   std::uint64_t tile_ = 0;
   std::map<std::pair<std::uint32_t, std::uint32_t>, NearSurface> made_;
@@ -91,10 +92,9 @@ enum class FacetChoice {
 /// Receivers that share a list.
 struct ReceiverSet {
   const TangentBox& box;
-  const scene::LightPlane& plane;
+  const ListSpace& space;
   /// Their facets where they are few and known exactly; else empty.
   std::span<const ReceiverPatch> patches;
-  double lift = 0.0;       ///< world units by which fragments stand off their facets
   std::uint64_t tile = 0;  ///< a number of its own for each set with patches
 };
 

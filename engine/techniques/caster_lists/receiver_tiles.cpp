@@ -14,23 +14,23 @@ struct Polygon {
   glm::dvec3 points[4];
   int count = 0;
   glm::dvec3 low{1e300}, high{-1e300};
-  glm::dvec3 normalWorld{0.0};
-  double planeDistance = 0.0;
-  void add(const glm::dvec3& abh) {
-    const glm::dvec3 p = tangentPoint(abh);
+  glm::dvec4 plane{0.0};
+  bool eitherSide = false;
+  void add(const glm::dvec3& p) {
     points[count++] = p;
     low = glm::min(low, p);
     high = glm::max(high, p);
   }
 };
 
-Polygon cutTriangle(const glm::dvec3 (&abh)[3], double minHeight) {
+Polygon cutTriangle(const glm::dvec3 (&abh)[3], const ListSpace& space, double minHeight) {
   Polygon polygon;
+  const auto add = [&](const glm::dvec3& p) { polygon.add(space.tangentPoint(p)); };
   for (int k = 0; k < 3; ++k) {
     const glm::dvec3 &a = abh[k], &b = abh[(k + 1) % 3];
     const bool aIn = a.z >= minHeight, bIn = b.z >= minHeight;
-    if (aIn) polygon.add(a);
-    if (aIn != bIn) polygon.add(glm::mix(a, b, (minHeight - a.z) / (b.z - a.z)));
+    if (aIn) add(a);
+    if (aIn != bIn) add(glm::mix(a, b, (minHeight - a.z) / (b.z - a.z)));
   }
   return polygon;
 }
@@ -83,6 +83,22 @@ struct FoundPatches {
   std::vector<ReceiverPatch> patch;
 };
 
+/// What the fragments of a patch are moved by, in the direction of each coordinate in which its plane rises.
+glm::dvec3 liftOf(const glm::dvec4& plane, const glm::dvec2& low, const glm::dvec2& high, double iLow,
+                  double iHigh) {
+  const glm::dvec3 largest(glm::max(glm::abs(low), glm::abs(high)),
+                           std::max(std::abs(iLow), std::abs(iHigh)));
+  return kPlaceRounding * largest * glm::sign(glm::dvec3(plane.x, plane.y, plane.w));
+}
+
+/// Turns the plane towards the light's side, where fragments that receive are seen from.
+void faceLight(Polygon& polygon, bool closed) {
+  const double middle = polygon.plane.w, reach = std::abs(polygon.plane.x) + std::abs(polygon.plane.y);
+  if (closed) return;
+  polygon.eitherSide = std::abs(middle) <= reach;
+  if (middle < -reach) polygon.plane = -polygon.plane;
+}
+
 void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& found) {
   const auto clampedIndex = [](double value, int count) {
     return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
@@ -118,13 +134,15 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
           static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) + static_cast<std::size_t>(x);
       if (found.wanted) {
         found.tile.push_back(static_cast<std::uint32_t>(tile));
-        found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.normalWorld,
-                               polygon.planeDistance});
+        found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.plane,
+                               liftOf(polygon.plane, low, high, iLow, iHigh), polygon.eitherSide});
       }
       TangentBox& box = tiles.boxes[tile];
-      const auto l = static_cast<float>(iLow * (1.0 - 1e-6)), h = static_cast<float>(iHigh * (1.0 + 1e-6));
-      box.iLow = box.empty() ? l : std::min(box.iLow, l);
-      box.iHigh = std::max(box.iHigh, h);
+      const double rounding = 2.0 * kPlaceRounding * std::max(std::abs(iLow), std::abs(iHigh));
+      const auto l = static_cast<float>(iLow - rounding), h = static_cast<float>(iHigh + rounding);
+      const bool first = box.empty();
+      box.iLow = first ? l : std::min(box.iLow, l);
+      box.iHigh = first ? h : std::max(box.iHigh, h);
     }
   }
 }
@@ -140,11 +158,11 @@ void keepPatches(const FoundPatches& found, ReceiverTiles& tiles) {
 }
 }  // namespace
 
-ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPlane& plane,
-                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight,
-                            double lift) {
+ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& space,
+                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight) {
   ReceiverTiles tiles;
   if (shadows.empty()) return tiles;
+  const scene::LightPlane& plane = space.plane;
   const glm::dmat3 linear(surface.worldFromObject);
   const glm::dmat3 lightFromObject = plane.axes * linear;
   const glm::dmat3 normalMatrix = glm::transpose(glm::inverse(linear));
@@ -161,13 +179,14 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
     const glm::dvec3 abh[3] = {vertices[mesh.indices[f]], vertices[mesh.indices[f + 1]],
                                vertices[mesh.indices[f + 2]]};
     if (surface.closed && !facesLight(abh, orientation)) continue;
-    Polygon polygon = cutTriangle(abh, minHeight);
+    Polygon polygon = cutTriangle(abh, space, minHeight);
     if (polygon.count < 3) continue;
     if (surface.withPatches) {
       const auto corner = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[f + k]]); };
       const glm::dvec3 normal = normalMatrix * glm::cross(corner(1) - corner(0), corner(2) - corner(0));
-      polygon.normalWorld = normal / std::max(glm::length(normal), 1e-300);
-      polygon.planeDistance = glm::dot(polygon.normalWorld, plane.toWorld(abh[0]) - plane.centerWorld);
+      polygon.plane = space.planeThrough(normal / std::max(glm::length(normal), 1e-300),
+                                         plane.toWorld(abh[0]) - plane.centerWorld);
+      faceLight(polygon, surface.closed);
     }
     if (polygon.low.x > shadows.high.x || polygon.high.x < shadows.low.x || polygon.low.y > shadows.high.y ||
         polygon.high.y < shadows.low.y)
@@ -178,7 +197,7 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
   }
   if (polygons.empty()) return tiles;
   tiles.low = glm::max(reached.low, shadows.low);
-  const glm::dvec2 size = glm::max(glm::min(reached.high, shadows.high) - tiles.low, glm::dvec2(1e-9));
+  const glm::dvec2 size = glm::max(glm::min(reached.high, shadows.high) - tiles.low, glm::dvec2(1e-6 * tileSize));
   const auto count = [&](double length) {
     return std::clamp(static_cast<int>(std::ceil(length / tileSize)), 1, maxTiles);
   };
@@ -198,15 +217,9 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPl
       box.tHigh = glm::vec2(low + 1.001 * tiles.tileSize);
       if (box.empty()) continue;
       // Fragments are lifted after their tile was found.
-      const double tLift =
-          lift * box.iHigh *
-          (1.0 / std::min(glm::length(plane.halfU), glm::length(plane.halfV)) +
-           glm::length(glm::dvec2(glm::max(glm::abs(box.tLow), glm::abs(box.tHigh)))) / plane.heightUnit);
-      const double iLift = lift / plane.heightUnit * box.iHigh * box.iHigh;
-      box.tLow -= glm::vec2(static_cast<float>(tLift));
-      box.tHigh += glm::vec2(static_cast<float>(tLift));
-      box.iLow -= static_cast<float>(iLift);
-      box.iHigh += static_cast<float>(iLift);
+      const glm::vec2 lift = static_cast<float>(kPlaceRounding) * glm::max(glm::abs(box.tLow), glm::abs(box.tHigh));
+      box.tLow -= lift;
+      box.tHigh += lift;
     }
   }
   return tiles;

@@ -27,8 +27,10 @@ struct TangentRect {
 struct ReceiverPatch {
   glm::dvec2 low{0.0}, high{0.0}, gradient{0.0};
   double base = 0.0, iLow = 0.0, iHigh = 0.0;
-  glm::dvec3 normalWorld{0.0};  ///< unit, outward
-  double planeDistance = 0.0;   ///< of the light's centre from its plane, behind positive, world units
+  /// Of the facet (ListSpace::planeThrough), positive where its fragments are seen from.
+  glm::dvec4 plane{0.0};
+  glm::dvec3 lift{0.0};     ///< in (t, i): by so much at least its fragments stand off it
+  bool eitherSide = false;  ///< the light lies on both sides of the plane, and fragments may
 };
 
 /// A grid over the tangents that a receiver and the shadows share; `boxes` row by row, empty where the
@@ -50,15 +52,14 @@ struct ReceiverTiles {
 struct ReceiverSurface {
   const scene::TriangleMesh* mesh = nullptr;
   glm::dmat4 worldFromObject{1.0};
-  bool closed = false;       ///< faces turned away from every point of the light receive nothing
+  /// Faces turned away from every point of the light receive nothing: none is seen from behind.
+  bool closed = false;
   bool withPatches = false;  ///< ReceiverTiles::patches are wanted
 };
 
-/// `lift`: world distance by which fragments are moved off the surface; the boxes allow for it. `tileSize`:
-/// side of a tile in tangents; grown so that the grid has at most `maxTiles` along a side.
+/// `tileSize`: side of a tile in tangents; grown so that the grid has at most `maxTiles` along a side.
 /// `minHeight`: surfaces nearer to the light's plane are left out.
-ReceiverTiles receiverTiles(const ReceiverSurface& surface, const scene::LightPlane& plane,
-                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight,
-                            double lift);
+ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& space,
+                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight);
 
 }  // namespace halfshadow::techniques

@@ -5,6 +5,8 @@
 /// (scene::LightPlane), a point is (t, i) = (a/h, b/h, 1/h). Seen from a receiver P, a point E in front of it
 /// projects onto the light at (tE - tP) / (iE - iP): two subtractions and a division, linear in E and in P
 /// before the division, and planes stay planes. The light is the square [-1, 1]².
+/// Only differences matter, so that the origin of (t, i) is free: far from the light it lies among the casters,
+/// or single precision would not tell a caster's height from a receiver's.
 #pragma once
 
 #include <array>
@@ -14,9 +16,46 @@
 
 namespace halfshadow::techniques {
 
+/// A light's coordinates and where (t, i) are counted from.
+struct ListSpace {
+  ListSpace() = default;
+  ListSpace(const scene::LightPlane& light) : plane(light) {}  // NOLINT: the origin at t = 0, i = 0
+  scene::LightPlane plane;
+  glm::dvec2 originT{0.0};
+  double originI = 0.0;
+  /// Of (a, b, h).
+  glm::dvec3 tangentPoint(const glm::dvec3& abh) const {
+    return {(abh.x - originT.x * abh.z) / abh.z, (abh.y - originT.y * abh.z) / abh.z,
+            (1.0 - originI * abh.z) / abh.z};
+  }
+  /// (a, b, h) of (t, i).
+  glm::dvec3 lightPoint(const glm::dvec3& ti) const {
+    const double h = 1.0 / (ti.z + originI);
+    return {(ti.x + originT.x) * h, (ti.y + originT.y) * h, h};
+  }
+  double height(double i) const { return 1.0 / (i + originI); }
+  /// A plane as dot(plane, (t.x, t.y, 1, i)): its signed distance, times the reciprocal height of the point.
+  /// `relative`: a point of it, relative to the light's centre.
+  glm::dvec4 planeThrough(const glm::dvec3& normalWorld, const glm::dvec3& relative) const {
+    const double x = glm::dot(normalWorld, plane.halfU), y = glm::dot(normalWorld, plane.halfV);
+    const double w = -glm::dot(normalWorld, relative);
+    return {x, y,
+            plane.heightUnit * glm::dot(normalWorld, plane.normal) + x * originT.x + y * originT.y +
+                w * originI,
+            w};
+  }
+  /// Rows that make (t, i) of a point in the world: (t, i) = (x, y, z) / w.
+  glm::dmat4 homogeneousFromWorld() const;
+};
+
 inline glm::dvec3 tangentPoint(const glm::dvec3& abh) {
   return {abh.x / abh.z, abh.y / abh.z, 1.0 / abh.z};
 }
+
+/// Single precision, and what a rasteriser makes of it, knows a fragment's (t, i) to this share. Fragments of
+/// casters stand off their own facets by so much, and by a step of the list's vertices: less than either could
+/// put them on the wrong side.
+inline constexpr double kPlaceRounding = 1e-6;
 
 /// The receivers of one tile: all points with tangents in [tLow, tHigh] and reciprocal heights in
 /// [iLow, iHigh].

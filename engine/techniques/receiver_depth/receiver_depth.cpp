@@ -96,7 +96,7 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
       program.set(gl, "u_worldNormalFromObject", glm::mat3(normals));
       program.set(gl, "u_pixelRay", pixelRay);
     }
-    state.cull = hiddenFaces(item, view.eyeWorld);
+    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state, stream ? GpuMesh::Streams::facet : GpuMesh::Streams::positions);
   }
 }
