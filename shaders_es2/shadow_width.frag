@@ -49,12 +49,13 @@ uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 #endif
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels of the width map per depth texel, z: margin in texels
 uniform HS_HIGHP vec4 u_widthRange;   // x: largest distance, y: knee of the storage, zw: kernel in texels per unit of depth
-// x: distance of the nearest caster in near distances, y: range of casters' distances, z: 1 / depth texels per texel,
+// x: the nearest caster's distance beyond the near distance, in units of it, y: range of casters' distances, z: 1 / depth texels per texel,
 // w: depth units
 uniform HS_HIGHP vec4 u_casterDepth;
 
 HS_HIGHP float hs_casterDepth(HS_HIGHP float normalisedDistance) {
-  return u_casterDepth.w - u_casterDepth.w / (u_casterDepth.x + u_casterDepth.y * normalisedDistance);
+  HS_HIGHP float distance = u_casterDepth.x + u_casterDepth.y * normalisedDistance;
+  return u_casterDepth.w * distance / (1.0 + distance);
 }
 
 // Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a

@@ -26,8 +26,8 @@ float halfshadow_visibility() {
                               mix(hs_momentsAt(corner + vec2(0.0, 1.0)), hs_momentsAt(corner + vec2(1.0)), weight.x), weight.y);
 #endif
   HS_HIGHP float distance = hs_momentDistance(hs_receiverValue);
-  // One texel changes the distance by its square times the change of depth.
-  HS_HIGHP float slope = (abs(hs_gradient.x) + abs(hs_gradient.y)) * distance * distance;
+  // One texel changes the distance by the square of the whole distance times the change of depth.
+  HS_HIGHP float slope = (abs(hs_gradient.x) + abs(hs_gradient.y)) * (1.0 + distance) * (1.0 + distance);
   HS_HIGHP float beyond = hs_momentOf(distance) - moments.x - u_momentRange.w - u_bias.z * slope * u_momentRange.y;
   if (beyond <= 0.0) return 1.0;
   HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);

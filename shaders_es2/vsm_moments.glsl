@@ -4,8 +4,8 @@
 // the light, all others are at almost the same depth.
 uniform HS_HIGHP vec4 u_momentRange;  // x: distance at 0, y: 1 / (distance at 1 - distance at 0), z: least variance, w: bias
 
-// In near distances, of depth 1 - near / distance.
-HS_HIGHP float hs_momentDistance(HS_HIGHP float depth) { return 1.0 / max(1.0 - depth, 1e-6); }
+// Beyond the near distance and in units of it, of depth 1 - near / distance.
+HS_HIGHP float hs_momentDistance(HS_HIGHP float depth) { return depth / max(1.0 - depth, 1e-6); }
 HS_HIGHP float hs_momentOf(HS_HIGHP float distance) {
   return clamp((distance - u_momentRange.x) * u_momentRange.y, 0.0, 1.0);
 }

@@ -13,7 +13,7 @@ uniform HS_HIGHP vec4 u_lastMargin;          // x: least depth from a caster to 
 uniform HS_HIGHP vec4 u_sourceSize;   // x: depth texels per side, y: 1 / x
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels per depth texel, z: margin in texels
-uniform HS_HIGHP vec4 u_casterRange;  // x: distance of the nearest caster, y: 1 / range of distances, z: depth of empty texels less a margin, w: 1 / depth units
+uniform HS_HIGHP vec4 u_casterRange;  // x: nearest caster's distance beyond the near distance, y: 1 / range of distances, z: depth of empty texels less a margin, w: 1 / depth units
 
 void main() {
   const HS_HIGHP vec2 counts = vec2(float(HS_SAMPLES_S), float(HS_SAMPLES_T));
@@ -32,8 +32,9 @@ void main() {
 #ifdef HS_LAST_RECEIVERS
     occupied *= step(u_lastMargin.x, hs_depthValue(texture2D(u_lastReceivers, uv)) - depth);
 #endif
-    // Distances, in near distances: of 255 steps of depth a caster beside the light would leave the others one or two.
-    HS_HIGHP float distance = 1.0 / max(1.0 - depth * u_casterRange.w, 1e-4);
+    // Distances beyond the near distance, in units of it: of 255 steps of depth a caster beside the light would leave the others one or two.
+    HS_HIGHP float share = depth * u_casterRange.w;
+    HS_HIGHP float distance = share / max(1.0 - share, 1e-4);
     HS_HIGHP float normalised = clamp((distance - u_casterRange.x) * u_casterRange.y, 0.0, 1.0);
     sum += occupied * vec2(1.0, normalised);
     largest = max(largest, occupied * normalised);

@@ -114,6 +114,8 @@ LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> cas
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
+  fit.nearestCaster = std::max(nearest, depth.nearDistance);
+  fit.farthestCaster = farthest;
   for (int axis = 0; axis < 2; ++axis) {
     Interval tangents = fitTangents(pointsLight, axis, depth.nearDistance);
     if (tangents.low > options.maxTangent || tangents.high < -options.maxTangent) return fit;

@@ -24,6 +24,9 @@ struct LightFit {
   glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
   glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
   double nearDistance = 1.0, farDistance = 2.0;  ///< along z
+  /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
+  /// long as the scene.
+  double nearestCaster = 1.0, farthestCaster = 2.0;
   int mapSize = 1024;
   bool empty = true;  ///< no caster in front of the light
 

@@ -123,7 +123,7 @@ class ShadowWidth final : public Technique {
     auto map = declareSignedWidth(frame, *depth);
     if (!map) return map.error();
     shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-    addSignedWidth(shading, *depth, *map);
+    addSignedWidth(frame, shading, *depth, *map);
     if (frame.settings.choice("shadow-width.corners") == "on") {
       shading.defines.push_back("HS_CORNERS");
       addWidthBoxes(shading, *map);

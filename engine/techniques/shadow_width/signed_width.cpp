@@ -15,6 +15,8 @@ namespace {
 constexpr double kLongestOffset = 125.0;
 /// Tiles of the box atlas: the largest boxes are as wide as kernels that reach the longest offset.
 constexpr int kMostTiles = 7;
+/// Of distances in single precision: casters that are flat against the light have no range.
+constexpr double kRounding = 1e-7;
 /// Beyond this the map would be some texels; penumbrae are cut.
 constexpr double kLargestShrink = 16.0;
 /// Longer over shorter side of a kernel in texels that are shaped like the light as far as they go.
@@ -33,18 +35,19 @@ glm::vec4 boxUniform(const SignedWidthMap& map) {
   return {0.5 / map.width, 1.0 / (rows * map.height), map.boxes.tiles, 0};
 }
 
-/// Distances of casters in near distances: the nearest, and their range.
+/// Distances of casters, less the near distance and in units of it: the nearest, and their range.
 struct CasterDistances {
-  double nearest = 1.0, range = 1.0;
+  double nearest = 0.0, range = 1.0;
 };
-CasterDistances casterDistances(const MapSpace& space) {
-  const double nearest = 1.0 / (1.0 - space.nearestCasterDepth);
-  return {nearest, std::max(1.0 / (1.0 - space.farthestCasterDepth) - nearest, 1e-6)};
+CasterDistances casterDistances(const planner::LightFit& fit) {
+  const double rounding = kRounding * fit.farthestCaster / fit.nearDistance;
+  return {fit.nearestCaster / fit.nearDistance - 1.0,
+          std::max((fit.farthestCaster - fit.nearestCaster) / fit.nearDistance, rounding)};
 }
 
 /// Distances of casters to 0 … 1, the depth between them and empty texels, and the depth of a whole range.
-glm::vec4 casterRange(const MapSpace& space) {
-  const CasterDistances casters = casterDistances(space);
+glm::vec4 casterRange(const planner::LightFit& fit, const MapSpace& space) {
+  const CasterDistances casters = casterDistances(fit);
   return {casters.nearest, 1.0 / casters.range, 0.5 * (space.farthestCasterDepth + 1.0) * space.depthUnit,
           1.0 / space.depthUnit};
 }
@@ -60,11 +63,11 @@ glm::dvec2 kernelPerDepth(const MapSpace& space, const glm::dvec2& depthTexelsPe
 glm::dvec2 widestKernel(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map,
                         double casterDepth) {
   const double farthest =
-      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farthestCaster);
   return kernelPerDepth(space, map.depthTexelsPerTexel) * (farthest - casterDepth);
 }
 glm::dvec2 widestKernel(const LightFrame& frame, const MapSpace& space, const SignedWidthMap& map) {
-  return widestKernel(frame, space, map, space.nearestCasterDepth);
+  return widestKernel(frame, space, map, 1.0 - space.nearDistance / frame.fit.nearestCaster);
 }
 
 /// Boxes up to the widest penumbra.
@@ -107,30 +110,31 @@ Status addStep(const LightFrame& frame, const LightDepth& depth, const SignedWid
   pass.writes = {{.resource = step.target, .initial = framegraph::InitialContent::dontCare}};
   pass.contentKey = step.contentKey;
   const float mapSize = static_cast<float>(depth.space.mapSize);
-  pass.execute =
-      [program = *program, sources = std::move(step.sources), boxes = boxUniform(map),
-       layout = layoutUniform(map), mapSize, casters = casterRange(depth.space), place = placeUniform(map),
-       flood = glm::vec4(step.strideTexels, 0, 0, 0), box = glm::vec4(step.boxTexels, 0, 0, 0),
-       lastMargin = glm::vec4(2.0 * depth.space.quantum * depth.space.depthUnit, 0, 0, 0),
-       range = glm::vec4(map.reachTexels, map.kneeTexels, 0, 0)](framegraph::PassContext& context) {
-        gl::Encoder& encoder = context.encoder;
-        encoder.useProgram(*program);
-        program->set(encoder.context(), "u_sourceSize", glm::vec4(mapSize, 1.0f / mapSize, 0, 0));
-        program->set(encoder.context(), "u_widthLayout", layout);
-        program->set(encoder.context(), "u_widthPlace", place);
-        program->set(encoder.context(), "u_casterRange", casters);
-        program->set(encoder.context(), "u_flood", flood);
-        program->set(encoder.context(), "u_box", box);
-        program->set(encoder.context(), "u_boxLayout", boxes);
-        program->set(encoder.context(), "u_widthRange", range);
-        program->set(encoder.context(), "u_lastMargin", lastMargin);
-        std::vector<gl::TextureBinding> bindings;
-        for (const Source& source : sources) {
-          bindings.push_back({program->samplerUnit(source.sampler), &context.texture(source.resource)});
-        }
-        encoder.bindTextures(bindings);
-        encoder.drawFullscreen({});
-      };
+  pass.execute = [program = *program, sources = std::move(step.sources), boxes = boxUniform(map),
+                  layout = layoutUniform(map), mapSize, casters = casterRange(frame.fit, depth.space),
+                  place = placeUniform(map), flood = glm::vec4(step.strideTexels, 0, 0, 0),
+                  box = glm::vec4(step.boxTexels, 0, 0, 0),
+                  lastMargin = glm::vec4(2.0 * depth.space.quantum * depth.space.depthUnit, 0, 0, 0),
+                  range =
+                      glm::vec4(map.reachTexels, map.kneeTexels, 0, 0)](framegraph::PassContext& context) {
+    gl::Encoder& encoder = context.encoder;
+    encoder.useProgram(*program);
+    program->set(encoder.context(), "u_sourceSize", glm::vec4(mapSize, 1.0f / mapSize, 0, 0));
+    program->set(encoder.context(), "u_widthLayout", layout);
+    program->set(encoder.context(), "u_widthPlace", place);
+    program->set(encoder.context(), "u_casterRange", casters);
+    program->set(encoder.context(), "u_flood", flood);
+    program->set(encoder.context(), "u_box", box);
+    program->set(encoder.context(), "u_boxLayout", boxes);
+    program->set(encoder.context(), "u_widthRange", range);
+    program->set(encoder.context(), "u_lastMargin", lastMargin);
+    std::vector<gl::TextureBinding> bindings;
+    for (const Source& source : sources) {
+      bindings.push_back({program->samplerUnit(source.sampler), &context.texture(source.resource)});
+    }
+    encoder.bindTextures(bindings);
+    encoder.drawFullscreen({});
+  };
   frame.graph.addPass(std::move(pass));
   return {};
 }
@@ -214,9 +218,11 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   const auto texelsTooFew = [&](double casterDepth) {
     return (0.5 * glm::length(widestKernel(frame, space, map, casterDepth)) + 1.0) / (kLongestOffset - 1.0);
   };
-  const double halfWay = 1.0 - 2.0 * space.nearDistance / (frame.fit.nearDistance + frame.fit.farDistance);
-  map.depthTexelsPerTexel *= std::max({1.0, std::min(texelsTooFew(space.nearestCasterDepth), 2.0),
-                                       std::min(texelsTooFew(halfWay), kLargestShrink)});
+  const double halfWay =
+      1.0 - 2.0 * space.nearDistance / (frame.fit.nearestCaster + frame.fit.farthestCaster);
+  map.depthTexelsPerTexel *=
+      std::max({1.0, std::min(texelsTooFew(1.0 - space.nearDistance / frame.fit.nearestCaster), 2.0),
+                std::min(texelsTooFew(halfWay), kLargestShrink)});
   // The corner of the widest kernel; one texel more, since the map is interpolated.
   const glm::dvec2 widest = widestKernel(frame, space, map);
   const double wanted = 0.5 * glm::length(widest) + 1.0;
@@ -317,12 +323,13 @@ void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map) {
   };
 }
 
-void addSignedWidth(ReceiverShading& shading, const LightDepth& depth, const SignedWidthMap& map) {
+void addSignedWidth(const LightFrame& frame, ReceiverShading& shading, const LightDepth& depth,
+                    const SignedWidthMap& map) {
   shading.textures.push_back({.sampler = "u_widthMap", .resource = map.map});
   const MapSpace& space = depth.space;
   const glm::dvec2 kernel = kernelPerDepth(space, map.depthTexelsPerTexel) / space.depthUnit;
   const glm::vec4 range(map.reachTexels, map.kneeTexels, kernel.x, kernel.y);
-  const CasterDistances casters = casterDistances(space);
+  const CasterDistances casters = casterDistances(frame.fit);
   // Narrower than a depth texel, a penumbra is an edge.
   const glm::vec4 casterDepth(casters.nearest, casters.range,
                               1.0 / std::max(map.depthTexelsPerTexel.x, map.depthTexelsPerTexel.y),

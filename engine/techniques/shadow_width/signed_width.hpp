@@ -39,7 +39,8 @@ glm::dvec2 depthTexelsPerWidthTexel(const MapSpace& space);
 Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDepth& depth);
 
 /// Adds the map's texture and uniforms to a receiver program that reads it.
-void addSignedWidth(ReceiverShading& shading, const LightDepth& depth, const SignedWidthMap& map);
+void addSignedWidth(const LightFrame& frame, ReceiverShading& shading, const LightDepth& depth,
+                    const SignedWidthMap& map);
 /// The same for the boxes.
 void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map);
 

@@ -49,16 +49,18 @@ class Vsm final : public Technique {
     if (!depth) return depth.error();
     const bool bytes = frame.settings.choice("vsm.storage") == "8";
     const MapSpace& space = depth->space;
-    // In near distances. Beyond the casters by half their distance, or beyond the farthest receiver, both
-    // sides of the comparison are clamped; no nearer than their own range again, so that what lies close
-    // behind casters is told from them.
-    const double nearest = 1.0 / (1.0 - space.nearestCasterDepth),
-                 farthest = 1.0 / (1.0 - space.farthestCasterDepth);
-    const double beyond = std::max(frame.receiverFarDistance / space.nearDistance, 2.0 * farthest - nearest);
-    const double deepest = std::min(1.5 * farthest, beyond);
+    // Beyond the casters by half their distance, or beyond the farthest receiver, both sides of the
+    // comparison are clamped; no nearer than the casters' own range again, so that what lies close behind
+    // them is told apart.
+    const planner::LightFit& fit = frame.fit;
+    const double beyond = std::max(frame.receiverFarDistance, 2.0 * fit.farthestCaster - fit.nearestCaster);
+    const double deepest = std::min(1.5 * fit.farthestCaster, beyond);
+    // As many digits as single precision has at that distance.
+    const double extent = std::max(deepest - fit.nearestCaster, 1e-6 * deepest);
     const double quantum = bytes ? 1.0 / 255.0 : 1.0 / 65535.0;
     const double knob = frame.settings.real("bias");
-    const glm::vec4 range(nearest, 1.0 / (deepest - nearest), 2.0 * quantum, knob * 1.5 * quantum);
+    const glm::vec4 range(fit.nearestCaster / fit.nearDistance - 1.0, fit.nearDistance / extent,
+                          2.0 * quantum, knob * 1.5 * quantum);
 
     std::vector<std::string> storage;
     if (bytes) storage.push_back("HS_MOMENTS_8");
