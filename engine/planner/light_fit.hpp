@@ -24,6 +24,9 @@ struct LightFit {
   glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
   glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
   double nearDistance = 1.0, farDistance = 2.0;  ///< along z
+  /// A caster comes nearer to the light than LightFitOptions::nearShare of its longer side: points of the
+  /// light see it from such different directions that a view from the centre cannot stand for them.
+  bool casterNearLight = false;
   int mapSize = 1024;
   bool empty = true;  ///< no caster in front of the light
 
@@ -40,6 +43,8 @@ struct LightFitOptions {
   int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
   double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
   double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
+  bool pointsAreTriangles = false;  ///< three a triangle: needed to judge casterNearLight
+  double nearShare = 1.0;
 };
 
 /// Smallest view of `casterPointsWorld` (corners of the casters' boxes, or their vertices: tighter) that
