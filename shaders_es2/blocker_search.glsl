@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Mean gap between the receiver and what blocks it, from HS_SEARCH x HS_SEARCH taps over a rectangle of the map.
-// Based on: Fernando, "Percentage-Closer Soft Shadows", 2005 (blocker search). A tap counts only inside the
-// penumbra's width at its own depth: farther off it touches no ray to the light, however wide a nearer caster makes
-// the search. Needs penumbra_bounds.glsl.
-// width: sides in texels. Returns x: share of taps that block, y: mean distance in depth from blocker to receiver.
-HS_HIGHP vec2 hs_searchBlockers(HS_HIGHP vec2 width) {
+// Based on: Fernando, "Percentage-Closer Soft Shadows", 2005 (blocker search).
+// width: sides in texels; taps: all of them, or 0 for none. Returns x: share of taps that block, y: mean distance in
+// depth from blocker to receiver.
+HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 width, float taps) {
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 stride = max(width, vec2(1.0)) * (1.0 / float(HS_SEARCH));
   HS_HIGHP vec2 first = -0.5 * float(HS_SEARCH - 1) * stride;
@@ -14,10 +13,10 @@ HS_HIGHP vec2 hs_searchBlockers(HS_HIGHP vec2 width) {
   float blockers = 0.0;
   HS_HIGHP float gapSum = 0.0;
   for (int i = 0; i < HS_SEARCH * HS_SEARCH; ++i) {
+    if (float(i) >= taps) break;
     HS_HIGHP float gap = hs_gap(texture2D(u_depthMap, (hs_texel + offset) * u_map.y), hs_receiver);
     HS_COUNT(1);
-    HS_HIGHP vec2 inside = step(abs(offset), max(vec2(0.5), -0.5 * gap * u_penumbra.xy));
-    HS_HIGHP float blocks = (1.0 - step(min(dot(hs_gradient, offset), 0.0) - bias, gap));
+    HS_HIGHP float blocks = 1.0 - step(min(dot(hs_gradient, offset), 0.0) - bias, gap);
     blockers += blocks;
     gapSum += blocks * gap;
     column += 1.0;
@@ -27,4 +26,13 @@ HS_HIGHP vec2 hs_searchBlockers(HS_HIGHP vec2 width) {
     offset.y += wrapped * stride.y;
   }
   return vec2(blockers * (1.0 / float(HS_SEARCH * HS_SEARCH)), -gapSum / max(blockers, 1.0));
+}
+
+// The same over what could hold blockers, and again where the blockers found ask for less than half of it: a nearer
+// caster at its rim makes the region wide without being in the way.
+HS_HIGHP vec2 hs_searchBlockers() {
+  HS_HIGHP vec2 found = hs_searchTaps(u_penumbra.xy * hs_widestGap, float(HS_SEARCH * HS_SEARCH));
+  float again = step(1.0e-4, found.x) * step(found.y, 0.5 * hs_widestGap);
+  HS_HIGHP vec2 nearer = hs_searchTaps(u_penumbra.xy * (1.25 * found.y), again * float(HS_SEARCH * HS_SEARCH));
+  return nearer.x > 0.0 ? nearer : found;
 }

@@ -23,7 +23,7 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
 #ifdef HS_CASTING_RECEIVER
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
-  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
+  HS_HIGHP vec2 found = hs_searchBlockers();
   if (found.x <= 0.0) return vec2(-1.0);
   HS_HIGHP float width = widest * found.y;
 #else
@@ -34,9 +34,10 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   if (around.x > 0.0) width = widest * around.y / around.x;
 #endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
-  HS_HIGHP float third = floor(3.0 * (band + 0.5) / (u_bands.z + 1.0));
-  side = third < 0.5 ? u_kernels.x : (third < 1.5 ? u_kernels.y : u_kernels.z);
-  return u_penumbra.xy * (exp2(u_bands.x + band / u_bands.y) / widest);
+  width = exp2(u_bands.x + band / u_bands.y);
+  // Two texels a tap: more taps than that read the same texels again.
+  side = width < 2.0 * u_kernels.x ? u_kernels.x : (width < 2.0 * u_kernels.y ? u_kernels.y : u_kernels.z);
+  return u_penumbra.xy * (width / widest);
 }
 
 float halfshadow_class() {

@@ -20,7 +20,7 @@ float halfshadow_visibility() {
   hs_prepare();
   float known = hs_maskClass();
   if (known > -0.5) return known;
-  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
+  HS_HIGHP vec2 found = hs_searchBlockers();
   if (found.x <= 0.0) return 1.0;
   if (found.x >= 1.0) return 0.0;
   return hs_pcfSpread(max(u_penumbra.xy * found.y, vec2(1.0)));

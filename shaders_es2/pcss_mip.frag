@@ -18,7 +18,7 @@
 HS_HIGHP vec2 hs_penumbraWidth() {
 #ifdef HS_CASTING_RECEIVER
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
-  HS_HIGHP vec2 found = hs_searchBlockers(u_penumbra.xy * hs_widestGap);
+  HS_HIGHP vec2 found = hs_searchBlockers();
   return found.x > 0.0 ? u_penumbra.xy * found.y : vec2(-1.0);
 #else
   HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);

@@ -80,6 +80,39 @@ Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, doubl
   return tangents;
 }
 
+/// The part of a convex polygon on the inner side of sign * axis <= sign * limit.
+void clipPolygon(std::vector<glm::dvec3>& polygon, int axis, double sign, double limit) {
+  std::vector<glm::dvec3> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec3& from = polygon[i];
+    const glm::dvec3& to = polygon[(i + 1) % polygon.size()];
+    const double a = sign * (limit - from[axis]), b = sign * (limit - to[axis]);
+    if (a >= 0.0) kept.push_back(from);
+    if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) kept.push_back(from + (to - from) * (a / (a - b)));
+  }
+  polygon = std::move(kept);
+}
+
+/// Whether a triangle, three points each, has a part of positive extent inside the box or on its sides, other
+/// than in its lowest plane: what lies in the light's own plane shadows nothing.
+bool anyTriangleWithin(const std::vector<glm::dvec3>& points, const glm::dvec3& low, const glm::dvec3& high) {
+  std::vector<glm::dvec3> polygon;
+  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
+    const glm::dvec3 least = glm::min(points[i], glm::min(points[i + 1], points[i + 2]));
+    const glm::dvec3 most = glm::max(points[i], glm::max(points[i + 1], points[i + 2]));
+    if (most.z <= low.z || glm::any(glm::lessThan(most, low)) || glm::any(glm::greaterThan(least, high)))
+      continue;
+    polygon.assign(points.begin() + static_cast<std::ptrdiff_t>(i),
+                   points.begin() + static_cast<std::ptrdiff_t>(i) + 3);
+    for (int axis = 0; axis < 3 && !polygon.empty(); ++axis) {
+      clipPolygon(polygon, axis, 1.0, high[axis]);
+      clipPolygon(polygon, axis, -1.0, low[axis]);
+    }
+    if (std::ranges::any_of(polygon, [&](const glm::dvec3& p) { return p.z > low.z; })) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
 glm::dmat4 LightFit::clipFromLight() const {
@@ -111,6 +144,11 @@ LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> cas
     farthest = std::max(farthest, pointsLight.back().z);
   }
   if (!(farthest > 0.0)) return fit;
+  if (options.pointsAreTriangles) {
+    const double distance = options.nearShare * 2.0 * std::max(fit.halfSize.x, fit.halfSize.y);
+    fit.casterNearLight = anyTriangleWithin(pointsLight, glm::dvec3(-fit.halfSize - distance, 0.0),
+                                            glm::dvec3(fit.halfSize + distance, distance));
+  }
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;

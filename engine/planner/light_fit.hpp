@@ -27,6 +27,9 @@ struct LightFit {
   /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
   /// long as the scene.
   double nearestCaster = 1.0, farthestCaster = 2.0;
+  /// A caster comes nearer to the light than LightFitOptions::nearShare of its longer side: points of the
+  /// light see it from such different directions that a view from the centre cannot stand for them.
+  bool casterNearLight = false;
   int mapSize = 1024;
   bool empty = true;  ///< no caster in front of the light
 
@@ -43,6 +46,8 @@ struct LightFitOptions {
   int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
   double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
   double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
+  bool pointsAreTriangles = false;  ///< three a triangle: needed to judge casterNearLight
+  double nearShare = 1.0;
 };
 
 /// Smallest view of `casterPointsWorld` (corners of the casters' boxes, or their vertices: tighter) that

@@ -87,6 +87,7 @@ const std::vector<ShaderFamily>& shaderFamilies() {
        Depth::independent,
        Kind::pass,
        {{"HS_CELL 1"}, {"HS_CELL 8"}}},
+      {"fullscreen.vert", "pyramid_copy.frag"},
       {"fullscreen.vert", "vsm_moments.frag", Depth::perStorage, Kind::pass, {{}, {"HS_MOMENTS_8"}}},
       {"fullscreen.vert",
        "vsm_blur.frag",

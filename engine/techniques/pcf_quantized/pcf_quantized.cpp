@@ -9,6 +9,7 @@
 
 #include "techniques/edge_mask/edge_mask.hpp"
 #include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_blocks/one_view.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -62,6 +63,11 @@ class PcfQuantized final : public Technique {
              0,
              {"laplacian5", "laplacian9"},
              "edge filter of preset=paper"}};
+  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+    // The paper's bands are far from the truth in any case.
+    if (frame.settings.choice("pcf-quantized.preset") == "paper") return std::nullopt;
+    return standInForOneView(frame);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     return frame.settings.choice("pcf-quantized.preset") == "paper" ? declarePaper(frame)

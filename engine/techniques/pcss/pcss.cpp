@@ -3,6 +3,7 @@
 #include "techniques/pcss/pcss.hpp"
 
 #include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/light_blocks/one_view.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -21,6 +22,9 @@ class Pcss final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {{"pcss.search", SettingType::integer, "5", 3, 9, {}, "taps per side of the blocker search"},
             {"pcss.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
+  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+    return standInForOneView(frame);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);

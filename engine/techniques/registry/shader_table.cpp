@@ -32,6 +32,7 @@ std::vector<gl::AllowedVariants> shaderTable() {
       {"fullscreen.vert", "block_dilate.frag", {"HS_REACH_S", "HS_REACH_T", "HS_CELL"}},
       {"fullscreen.vert", "occupancy.frag", kDepth},
       {"fullscreen.vert", "occupancy_level.frag", {"HS_CELL"}},
+      {"fullscreen.vert", "pyramid_copy.frag", {}},
       {"fullscreen.vert", "edge_mask.frag", joined({kDepth, {"HS_LAPLACIAN9"}})},
       {"fullscreen.vert", "edge_dilate.frag", {}},
       {"fullscreen.vert", "vsm_moments.frag", joined({kDepth, {"HS_MOMENTS_8"}})},
