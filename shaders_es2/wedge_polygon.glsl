@@ -75,11 +75,13 @@ HS_HIGHP float hs_edgeIntegrals(HS_HIGHP vec4 xa, HS_HIGHP vec4 ya, HS_HIGHP vec
   HS_HIGHP vec4 xTo = x + hs_finite((clampedB - y) * slope);
   HS_HIGHP vec4 from = clamp(xFrom, -1.0, 1.0);
   HS_HIGHP vec4 to = clamp(xTo, -1.0, 1.0);
-  // The mean of clamp(x) for x from xFrom to xTo, by its primitive c x - c c / 2.
-  HS_HIGHP vec4 run = xTo - xFrom;
+  // The mean of clamp(x) for x from xFrom to xTo, weighted by the lengths before, within and behind the square: far
+  // beside it, where one of these is lost beside another, all have the one value that counts.
+  HS_HIGHP vec4 before = from - xFrom, within = to - from, behind = xTo - to;
+  HS_HIGHP vec4 run = before + within + behind;
   HS_HIGHP vec4 level = vec4(1.0) - step(HS_WEDGE_FLAT, abs(run));
-  HS_HIGHP vec4 primitive = to * (xTo - 0.5 * to) - from * (xFrom - 0.5 * from);
-  HS_HIGHP vec4 mean = hs_select(primitive / (run + level), 0.5 * (from + to), level);
+  HS_HIGHP vec4 weighted = from * before + 0.5 * (from + to) * within + to * behind;
+  HS_HIGHP vec4 mean = hs_select(weighted / (run + level), 0.5 * (from + to), level);
   return dot(mean, clampedB - clampedA);
 }
 

@@ -111,6 +111,7 @@ void cutSilhouette(const HalfEdgeMesh& mesh, const Silhouette& silhouette, const
   }
   const CasterPart& part = mesh.parts()[entry.part];
   for (std::uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
+    if (entry.region != kNoFace && silhouette.regions[f] != entry.region) continue;
     if ((silhouette.facing[f] == 0) == entry.turnedAway) cut.addFace(mesh.faces()[f], entry.turnedAway);
   }
   cut.chain(loops);

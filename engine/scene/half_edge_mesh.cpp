@@ -132,8 +132,20 @@ void HalfEdgeMesh::computePlanes() {
       for (const glm::dvec3& p : {a, b, c}) part.bounds.include(p);
     }
   }
-  for (CasterPart& part : parts_) part.convex = isConvex(part);
+  for (CasterPart& part : parts_) {
+    part.convex = isConvex(part);
+    part.foldedEdges = foldedEdges(part);
+  }
   for (FaceCluster& cluster : clusters_) fitCluster(cluster, faces_, positions_, planes_, origin_);
+}
+
+std::uint32_t HalfEdgeMesh::foldedEdges(const CasterPart& part) const {
+  if (part.closed) return 0;
+  const auto own = edges().subspan(part.firstEdge, part.edgeCount);
+  return static_cast<std::uint32_t>(std::ranges::count_if(own, [&](const EdgeRecord& edge) {
+    return edge.opposite != kNoFace &&
+           glm::dot(glm::vec3(planes_[edge.face]), glm::vec3(planes_[edge.opposite])) < kSharpFold;
+  }));
 }
 
 bool HalfEdgeMesh::isConvex(const CasterPart& part) const {

@@ -26,6 +26,10 @@ struct EdgeRecord {
   std::uint32_t face = kNoFace, opposite = kNoFace;
 };
 
+/// Cosine of the turn between faces from which on an edge of a sheet is a fold: a corner of a room, not the
+/// curve of a bowl.
+inline constexpr float kSharpFold = 0.866f;
+
 /// Why a part is a sheet.
 enum class PartIssue : std::uint8_t {
   none,           ///< it is closed
@@ -55,6 +59,7 @@ struct CasterPart {
   bool inward = false;
   std::uint32_t firstCluster = 0, clusterCount = 0;
   std::uint32_t firstGroup = 0, groupCount = 0;
+  std::uint32_t foldedEdges = 0;  ///< of a sheet: that turn by more than kSharpFold
   /// Seen from outside only light-facing faces occlude, once each. An open part is a sheet that occludes from
   /// both sides: all its faces count, turned towards the light; its two sides are kept apart, because where
   /// they meet at a silhouette edge they cover the same ground twice.
@@ -109,6 +114,7 @@ class HalfEdgeMesh {
   void copyPositions(const TriangleMesh& mesh);
   void computePlanes();
   bool isConvex(const CasterPart& part) const;
+  std::uint32_t foldedEdges(const CasterPart& part) const;
   std::vector<glm::vec3> positions_;
   std::vector<std::uint32_t> sourceVertex_;  ///< in the TriangleMesh, of each welded vertex
   std::vector<glm::uvec3> faces_;
@@ -131,12 +137,16 @@ struct Silhouette {
     std::uint32_t firstLoop = 0, loopCount = 0;
     bool enclosesLight = false;  ///< the point lies inside this closed part
     bool turnedAway = false;     ///< the side of a sheet whose faces look away from the point
+    std::uint32_t region = kNoFace;  ///< of that side, see `regions`; kNoFace: all of it
   };
   std::vector<std::uint32_t> vertices;  ///< welded
   std::vector<Loop> loops;
   std::vector<Part> parts;  ///< those with loops, or enclosing the point; two entries for a sheet's sides
   /// Per face of the mesh: 1 where it faces the point.
   std::vector<std::uint8_t> facing;
+  /// Per face, of sides in several regions: sheets are taken apart along sharp folds whose inside the point
+  /// looks into. Behind a corner of a room its outline covers what the two walls do; among them it does not.
+  std::vector<std::uint32_t> regions;
   /// What the last extraction did.
   struct Counters {
     std::uint64_t facesTested = 0;      ///< one by one; the others were decided with their cluster
@@ -160,6 +170,7 @@ struct Silhouette {
   std::vector<std::int32_t> firstLink;
   std::vector<std::uint32_t> starts;
   std::vector<std::uint8_t> clusterFacing;
+  std::vector<std::vector<glm::uvec2>> regionEdges;
 };
 
 /// The boundary of what `mesh` shows to a light at `lightObject` (object space): loops that run

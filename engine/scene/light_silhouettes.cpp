@@ -71,6 +71,12 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
       appendLoop(loopPoints, turn, placed, result);
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
+    placed.deepest = placed.high.z;
+    if (!placed.closed) {
+      for (const glm::dvec3& corner : caster.mesh->parts()[part.part].bounds.corners()) {
+        placed.deepest = std::max(placed.deepest, static_cast<float>(lightFromObject(glm::vec3(corner)).z));
+      }
+    }
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
   }
 }

@@ -57,6 +57,9 @@ struct LightSilhouettes {
     /// it.
     std::uint32_t layerCount = 0;
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds of its loops in (a, b, h)
+    /// No point of its part is farther from the light: the inside of a bowl is, than the loops. Receivers
+    /// behind this are behind all of it.
+    float deepest = 0.0f;
     /// Else one side of a sheet: the faces that look towards the light and those that look away are two
     /// entries, so that one entry covers nothing twice unless the surface itself folds.
     bool closed = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "scene/edge_uses.hpp"
 #include "scene/half_edge_mesh.hpp"
 
 namespace halfshadow::scene {
@@ -98,6 +99,70 @@ void chain(Silhouette& s) {
 }
 enum class Side { facing, away };
 
+/// Whether the light looks into the fold between two faces of one side.
+bool looksInto(const HalfEdgeMesh& mesh, const EdgeRecord& edge, Side side) {
+  const glm::vec4 plane = mesh.facePlanes()[edge.face];
+  if (glm::dot(glm::vec3(plane), glm::vec3(mesh.facePlanes()[edge.opposite])) >= kSharpFold) return false;
+  const glm::uvec3& beyond = mesh.faces()[edge.opposite];
+  double above = 0.0;
+  for (int k = 0; k < 3; ++k) {
+    const double height =
+        glm::dot(glm::dvec3(plane), glm::dvec3(mesh.positions()[beyond[k]]) - mesh.origin()) + double(plane.w);
+    if (std::abs(height) > std::abs(above)) above = height;
+  }
+  return side == Side::facing ? above > 0.0 : above < 0.0;
+}
+
+/// Numbers the regions of a side of a sheet in `s.regions`, between folds that the light looks into. Returns
+/// how many; 1 where there is no such fold, and then no numbers.
+std::uint32_t findRegions(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, Silhouette& s) {
+  if (part.foldedEdges == 0) return 1;
+  const auto edges = mesh.edges().subspan(part.firstEdge, part.edgeCount);
+  const auto within = [&](std::uint32_t face) { return (s.facing[face] != 0) == (side == Side::facing); };
+  const auto inner = [&](const EdgeRecord& edge) {
+    return edge.opposite != kNoFace && within(edge.face) && within(edge.opposite);
+  };
+  if (std::ranges::none_of(edges, [&](const EdgeRecord& edge) {
+        return inner(edge) && looksInto(mesh, edge, side);
+      })) {
+    return 1;
+  }
+  DisjointSets sets(part.faceCount);
+  for (const EdgeRecord& edge : edges) {
+    if (inner(edge) && !looksInto(mesh, edge, side))
+      sets.merge(edge.face - part.firstFace, edge.opposite - part.firstFace);
+  }
+  s.regions.resize(mesh.faces().size(), kNoFace);
+  std::vector<std::uint32_t> regionOf(part.faceCount, kNoFace);
+  std::uint32_t count = 0;
+  for (std::uint32_t f = 0; f < part.faceCount; ++f) {
+    std::uint32_t& region = s.regions[part.firstFace + f];
+    if (!within(part.firstFace + f)) continue;
+    std::uint32_t& known = regionOf[sets.root(f)];
+    if (known == kNoFace) known = count++;
+    region = known;
+  }
+  return count;
+}
+
+/// For each region the boundary of its faces, in the direction of linkBoundary().
+void collectRegionEdges(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, std::uint32_t count,
+                        Silhouette& s) {
+  s.regionEdges.resize(std::max<std::size_t>(s.regionEdges.size(), count));
+  for (auto& edges : s.regionEdges) edges.clear();
+  const auto regionOf = [&](std::uint32_t face) {
+    const bool within = face != kNoFace && (s.facing[face] != 0) == (side == Side::facing);
+    return within ? s.regions[face] : kNoFace;
+  };
+  for (const EdgeRecord& edge : mesh.edges().subspan(part.firstEdge, part.edgeCount)) {
+    const std::uint32_t here = regionOf(edge.face), beyond = regionOf(edge.opposite);
+    if (here == beyond) continue;
+    const glm::uvec2 along(edge.from, edge.to), back(edge.to, edge.from);
+    if (here != kNoFace) s.regionEdges[here].push_back(side == Side::facing ? along : back);
+    if (beyond != kNoFace) s.regionEdges[beyond].push_back(side == Side::facing ? back : along);
+  }
+}
+
 /// Links the boundary of the part's faces that look towards the light; or of those that look away, turned
 /// round.
 void linkBoundary(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, Silhouette& s) {
@@ -137,6 +202,20 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
     const CasterPart& part = mesh.parts()[i];
     for (const Side side : {Side::facing, Side::away}) {
       if (side == Side::away && part.closed) break;
+      const std::uint32_t regions = findRegions(mesh, part, side, s);
+      if (regions > 1) {
+        collectRegionEdges(mesh, part, side, regions, s);
+        for (std::uint32_t region = 0; region < regions; ++region) {
+          Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
+          found.turnedAway = side == Side::away;
+          found.region = region;
+          for (const glm::uvec2& edge : s.regionEdges[region]) link(s, edge.x, edge.y);
+          chain(s);
+          found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
+          if (found.loopCount > 0) s.parts.push_back(found);
+        }
+        continue;
+      }
       Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
       found.turnedAway = side == Side::away;
       linkBoundary(mesh, part, side, s);

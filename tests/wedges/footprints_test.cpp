@@ -36,7 +36,7 @@ WedgePieces somePiece(std::mt19937& random) {
   silhouettes.loops.push_back({0, 7});
   silhouettes.casters.push_back({.firstLoop = 0, .loopCount = 1});
   WedgePieces pieces;
-  makeWedgePieces(silhouettes, 1.01, pieces);
+  makeWedgePieces(silhouettes, {16.0, 16.0, 1.0}, 1.01, pieces);
   EXPECT_EQ(pieces.pieces.size(), 1u);
   return pieces;
 }
@@ -95,10 +95,11 @@ TEST(Footprints, CoverTheVolumesPartOnceAndCarryTheProjectedPiece) {
         if (least < 1e-4) continue;
         ++holding;
         for (std::uint32_t k = 0; k < kPieceVertices; ++k) {
-          const glm::dvec3 e(pieces.vertices[piece.firstVertex + std::min(k, piece.vertexCount - 1)]);
-          EXPECT_NEAR(w.x * a.x[k] + w.y * b.x[k] + w.z * c.x[k], abh.z * e.x - e.z * abh.x, 1e-4);
-          EXPECT_NEAR(w.x * a.y[k] + w.y * b.y[k] + w.z * c.y[k], abh.z * e.y - e.z * abh.y, 1e-4);
-          EXPECT_NEAR(w.x * a.w[k] + w.y * b.w[k] + w.z * c.w[k], abh.z - e.z, 1e-5);
+          const glm::dvec3& e = pieces.vertices[piece.firstVertex + std::min(k, piece.vertexCount - 1)];
+          const double size = piece.size();
+          EXPECT_NEAR(size * (w.x * a.x[k] + w.y * b.x[k] + w.z * c.x[k]), abh.z * e.x - e.z * abh.x, 1e-4);
+          EXPECT_NEAR(size * (w.x * a.y[k] + w.y * b.y[k] + w.z * c.y[k]), abh.z * e.y - e.z * abh.y, 1e-4);
+          EXPECT_NEAR(size * (w.x * a.w[k] + w.y * b.w[k] + w.z * c.w[k]), abh.z - e.z, 1e-5);
         }
       }
       if (in) {

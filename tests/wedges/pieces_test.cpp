@@ -29,15 +29,18 @@ void addCaster(scene::LightSilhouettes& silhouettes, std::uint32_t vertices, dou
   silhouettes.loops.push_back(loop);
 }
 
-using Edge = std::array<float, 6>;
+/// Of a light a quarter as large as its distance.
+constexpr glm::dvec3 kUnits(4.0, 4.0, 1.0);
+
+using Edge = std::array<double, 6>;
 
 /// How often each edge is run through, one way minus the other.
 std::map<Edge, int> edgesOf(const WedgePieces& pieces) {
   std::map<Edge, int> edges;
   for (const WedgePiece& piece : pieces.pieces) {
     for (std::uint32_t i = 0; i < piece.vertexCount; ++i) {
-      const glm::vec3& a = pieces.vertices[piece.firstVertex + i];
-      const glm::vec3& b = pieces.vertices[piece.firstVertex + (i + 1) % piece.vertexCount];
+      const glm::dvec3& a = pieces.vertices[piece.firstVertex + i];
+      const glm::dvec3& b = pieces.vertices[piece.firstVertex + (i + 1) % piece.vertexCount];
       ++edges[{a.x, a.y, a.z, b.x, b.y, b.z}];
       --edges[{b.x, b.y, b.z, a.x, a.y, a.z}];
     }
@@ -52,13 +55,15 @@ TEST(WedgePieces, AddUpToTheLoopAndNothingElse) {
     scene::LightSilhouettes silhouettes;
     addCaster(silhouettes, vertices, 3.0, -2.0, 0.5, random);
     WedgePieces pieces;
-    makeWedgePieces(silhouettes, 1.0, pieces);
+    makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
     const auto edges = edgesOf(pieces);
     EXPECT_EQ(edges.size(), vertices);
-    const glm::dvec3 grid(pieces.stepAB, pieces.stepAB, pieces.stepH);
+    ASSERT_EQ(pieces.casters.size(), 1u);
+    const glm::dvec3 grid = pieces.casters[0].step * pieces.units, anchor(0, 0, 1);
     for (std::uint32_t i = 0; i < vertices; ++i) {
-      const glm::vec3 a(glm::round(glm::dvec3(silhouettes.points[i]) / grid) * grid);
-      const glm::vec3 b(glm::round(glm::dvec3(silhouettes.points[(i + 1) % vertices]) / grid) * grid);
+      const glm::dvec3 a = anchor + glm::round((silhouettes.points[i] - anchor) / grid) * grid;
+      const glm::dvec3 b =
+          anchor + glm::round((silhouettes.points[(i + 1) % vertices] - anchor) / grid) * grid;
       const auto found = edges.find({a.x, a.y, a.z, b.x, b.y, b.z});
       ASSERT_NE(found, edges.end()) << "edge " << i << " of " << vertices;
       EXPECT_EQ(found->second, 1);
@@ -75,7 +80,7 @@ TEST(WedgePieces, VolumesHoldEveryReceiverThatTheirVerticesShadow) {
   scene::LightSilhouettes silhouettes;
   addCaster(silhouettes, 40, 5.0, 1.0, 0.7, random);
   WedgePieces pieces;
-  makeWedgePieces(silhouettes, 1.0, pieces);
+  makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
   for (const WedgePiece& piece : pieces.pieces) {
     for (int i = 0; i < 1000; ++i) {
       // A point of the piece's hull, seen from a receiver at a point of the light.
@@ -83,7 +88,7 @@ TEST(WedgePieces, VolumesHoldEveryReceiverThatTheirVerticesShadow) {
       double sum = 0.0;
       for (std::uint32_t v = 0; v < piece.vertexCount; ++v) {
         const double weight = unit(random);
-        point += weight * glm::dvec3(pieces.vertices[piece.firstVertex + v]);
+        point += weight * pieces.vertices[piece.firstVertex + v];
         sum += weight;
       }
       point /= sum;
@@ -104,7 +109,7 @@ TEST(WedgePieces, CastersOfABatchShadowNoCommonReceiver) {
   for (int i = 0; i < 60; ++i)
     addCaster(silhouettes, 20, place(random), place(random), height(random), random);
   WedgePieces pieces;
-  makeWedgePieces(silhouettes, 1.0, pieces);
+  makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
   ASSERT_GT(pieces.batchCount, 1u);
   ASSERT_LT(pieces.batchCount, 60u) << "some casters are far apart";
   for (int i = 0; i < 20000; ++i) {
@@ -116,6 +121,39 @@ TEST(WedgePieces, CastersOfABatchShadowNoCommonReceiver) {
       const glm::dvec2 at(receiver);
       if (glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high)))
         EXPECT_EQ(++inside[caster.batch], 1);
+    }
+  }
+}
+
+TEST(WedgePieces, GridsAreTheCastersOwn) {
+  // A caster's vertices are what they are with another a thousand or a million times as far away.
+  std::mt19937 random(17);
+  scene::LightSilhouettes near;
+  addCaster(near, 20, 3.0, -2.0, 0.5, random);
+  WedgePieces alone;
+  makeWedgePieces(near, kUnits, 1e9, alone);
+  for (const double away : {1e3, 1e6}) {
+    scene::LightSilhouettes both = near;
+    addCaster(both, 20, 3.0 * away, -2.0 * away, 0.5 * away, random);
+    WedgePieces pieces;
+    makeWedgePieces(both, kUnits, 1e9, pieces);
+    ASSERT_GE(pieces.vertices.size(), alone.vertices.size());
+    for (std::size_t i = 0; i < alone.vertices.size(); ++i)
+      EXPECT_EQ(pieces.vertices[i], alone.vertices[i]) << away;
+    // What stands far away keeps what single precision holds there.
+    EXPECT_LE(pieces.casters[1].step, 4e-7 * away);
+  }
+}
+
+TEST(WedgePieces, VerticesAreBeforeTheLight) {
+  std::mt19937 random(19);
+  for (const double height : {1e-6, 1e-5, 1e-3, 1.0}) {
+    for (const double away : {0.0, 1e2, 1e6}) {
+      scene::LightSilhouettes silhouettes;
+      addCaster(silhouettes, 30, away, 0.0, height, random);
+      WedgePieces pieces;
+      makeWedgePieces(silhouettes, kUnits, 1e9, pieces);
+      for (const glm::dvec3& vertex : pieces.vertices) EXPECT_GT(vertex.z, 0.0) << height << " " << away;
     }
   }
 }

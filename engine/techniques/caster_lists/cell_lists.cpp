@@ -21,7 +21,7 @@ struct BlockCasters {
     const CasterLoops* caster = nullptr;
     const NearSurface* surface = nullptr;
     FacetChoice choice = FacetChoice::asLightSees;
-    std::span<const std::uint32_t> facets;
+    std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
   };
   std::vector<CasterLoops> partial;
   std::vector<Near> near;
@@ -116,17 +116,21 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
                                                                           : FacetChoice::asLightSees};
     if (near.surface->facets.empty()) return false;
     near.facets = facets.of(caster, *near.surface, receivers);
-    if (!near.facets.empty()) result.near.push_back(near);
+    if (near.facets.empty()) return true;
+    if (std::ranges::find(result.near, near.surface, &BlockCasters::Near::surface) != result.near.end())
+      near.facets = {};
+    result.near.push_back(near);
     return true;
   };
   for (const CasterLoops& caster : loops.casters) {
-    if (caster.low.z >= receivers.iHigh) {
+    const glm::vec3 low(glm::vec2(caster.low), std::min(caster.low.z, caster.deepest));
+    if (low.z >= receivers.iHigh) {
       forEachLayer(loops, caster, add);
       continue;
     }
     const bool among =
         !caster.enclosesLight && (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
-    if (among && sides.code(caster.low, caster.high) != 0) continue;
+    if (among && sides.code(low, caster.high) != 0) continue;
     if (!among || !addNear(caster)) add(caster);
   }
   if (result.full) {
@@ -203,7 +207,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
       const auto& [caster, surface, choice, facets] = block[s].near[c];
-      if (caster->low.z >= receivers.iHigh) {
+      if (std::min(caster->low.z, caster->deepest) >= receivers.iHigh) {
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
           if (!full) add(simplify(layer, loops.light, receivers, simplified));
         });

@@ -242,6 +242,7 @@ void CasterLoops::clear() {
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
   enclosesLight = false;
+  deepest = 0.0f;
   firstLayer = layerCount = 0;
   object = part = 0;
   convex = true;
@@ -277,6 +278,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
       }
       caster.addLoop(loop);
     }
+    caster.deepest = 1.0f / source.deepest;
     caster.object = source.object;
     caster.part = source.part;
     const scene::CasterPart& part = casters[source.object].mesh->parts()[source.part];

@@ -27,6 +27,7 @@ struct CasterLoops {
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
   glm::vec3 low{1e30f}, high{-1e30f};
+  float deepest = 0.0f;  ///< no point of its part has a smaller i; the loops of a bowl do not tell
   bool enclosesLight = false;
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.

@@ -117,7 +117,10 @@ Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view
   route.volumes_ = volumes_.updatePieces(frame);
   route.groups_ = grouping(route.volumes_->pieces);
   VolumeEnds ends;
-  if (setting != "screen") {
+  if (setting != "screen" && coincident_.among(frame.receivers)) {
+    frame.graph.noteSkipped(wedgePassName(frame, "wedges drawn by receivers"),
+                            "surfaces of receivers coincide: both would be drawn on one pixel");
+  } else if (setting != "screen") {
     const std::size_t mostDraws = snapsCoarsely(frame.capabilities) ? 0 : kMostDraws;
     auto draws = receivers_[frame.lightIndex].update(frame, *route.volumes_, route.groups_);
     if (!draws) return draws.error();
@@ -159,6 +162,7 @@ Result<ReceiverShading> WedgeRoutes::declareSums(const LightFrame& frame, std::s
 void WedgeRoutes::contextLost() {
   volumes_.contextLost();
   receivers_.clear();
+  coincident_ = {};
 }
 
 }  // namespace halfshadow::techniques

@@ -7,6 +7,7 @@
 
 #include <optional>
 
+#include "techniques/wedge_receivers/coincident_receivers.hpp"
 #include "techniques/wedge_receivers/wedge_receivers.hpp"
 #include "techniques/wedge_volumes/wedge_passes.hpp"
 
@@ -55,8 +56,9 @@ class WedgeRoutes {
   using Grouping = std::vector<WedgeGroup> (*)(const WedgePieces& pieces);
   /// `setting` is the value of a routeSetting(). With `auto`, receivers of few triangles carry the
   /// silhouettes; so do all others where that takes at most 64 draws and 65,536 vertices (none where the
-  /// device snapsCoarsely()), else they meet volumes that end behind them. The frame's notes tell. Errors:
-  /// outOfMemory, shaderFailed.
+  /// device snapsCoarsely()), else they meet volumes that end behind them. Where receivers coincide, each of
+  /// them would take what their pixels are to get once: then all is drawn on the screen. The frame's notes
+  /// tell. Errors: outOfMemory, shaderFailed.
   Result<WedgeRoute> choose(const LightFrame& frame, std::string_view setting, Grouping grouping);
   /// Adds up all casters in one pass: exact where one caster shadows a receiver. Errors: those of choose().
   Result<ReceiverShading> declareSums(const LightFrame& frame, std::string_view setting);
@@ -67,6 +69,7 @@ class WedgeRoutes {
  private:
   WedgeVolumeCache volumes_;
   std::map<int, WedgeReceivers> receivers_;
+  CoincidentReceivers coincident_;
 };
 
 }  // namespace halfshadow::techniques
