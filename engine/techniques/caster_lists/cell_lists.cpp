@@ -125,7 +125,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
       continue;
     }
     const bool among =
-        !caster.enclosesLight && (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
+        !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(caster.low, caster.high) != 0) continue;
     if (!among || !addNear(caster)) add(caster);
   }

@@ -208,7 +208,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   // Faces that look towards the light run clockwise in (a, b), unless the object is mirrored.
   const bool turned = glm::determinant(linear) > 0.0;
 
-  NearSurface surface{.closed = own.closed, .convex = own.convex};
+  NearSurface surface{.closed = own.closed, .convex = own.convex, .whole = mesh.parts().size() == 1};
   std::vector<glm::dvec3> abh(mesh.positions().size());
   std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cutOf;  // of edges, by their vertices
@@ -326,6 +326,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
   const OuterSides outer(light, receivers.box);
   const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
                            lightIsBefore(receivers, light);
+  // No facet of a convex caster reaches before another.
+  if (lightBefore && surface.closed && surface.convex && surface.whole) return;
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;

@@ -56,6 +56,7 @@ struct NearSurface {
   mutable std::vector<Side> sides;
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
+  bool whole = false;   ///< the caster has no other part
 };
 
 /// What reaches through the plane h = minHeight is cut there.
