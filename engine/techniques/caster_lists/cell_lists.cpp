@@ -70,6 +70,16 @@ void appendCaster(const CasterLoops& caster, const SubLight& light, const Tangen
   if (records.size() > before) records.back().end = CellRecord::End::caster;
 }
 
+/// The triangle that covers of the light what lies behind a fragment's own facet.
+void appendBehindFacet(std::uint8_t subLight, std::vector<CellRecord>& records) {
+  for (const std::int8_t corner : {0, 1, 2, 0}) {
+    records.push_back({.subLight = subLight, .behindFacet = corner});
+  }
+  records[records.size() - 4].startsLoop = true;
+  records.back().closesLoop = true;
+  records.back().end = CellRecord::End::caster;
+}
+
 /// The box around all non-empty boxes of a block of tiles.
 TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
   TangentBox all;
@@ -148,7 +158,7 @@ bool castersApart(std::span<const CellRecord> list, const TangentBox& receivers)
   casters.clear();
   bool starts = true;
   for (const CellRecord& record : list) {
-    if (record.ti.z <= receivers.iHigh) return false;
+    if (record.behindFacet != CellRecord::kVertex || record.ti.z <= receivers.iHigh) return false;
     if (starts) {
       SeenRange none;
       none.low.fill(1e30f), none.high.fill(-1e30f);
@@ -210,6 +220,14 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       } else {
         // Only of its own tiles the patches are known.
         const bool own = choice == FacetChoice::asReceiversSee;
+        const OwnHorizon horizon = own ? ownHorizon(*surface, loops.light, set) : OwnHorizon::unknown;
+        if (horizon != OwnHorizon::unknown) {
+          full = horizon == OwnHorizon::behind;
+          if (horizon != OwnHorizon::across) continue;
+          appendBehindFacet(static_cast<std::uint8_t>(s), records);
+          if (list.casters < 255) ++list.casters;
+          continue;
+        }
         add(simplify(*surface, facets, loops.light,
                      own ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
       }
@@ -224,10 +242,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
   }
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
   list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
-    return record.ti.z < receivers.iHigh;
+    return record.behindFacet == CellRecord::kVertex && record.ti.z < receivers.iHigh;
   });
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
-               (list.casters == 1 || castersApart(std::span(records).subspan(list.first), receivers));
+               ((list.casters == 1 && records.back().behindFacet == CellRecord::kVertex) || castersApart(std::span(records).subspan(list.first), receivers));
   if (list.count > 0) records.back().end = CellRecord::End::list;
   return list;
 }
@@ -265,6 +283,8 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
     }
   }
   lists.oneSided = std::ranges::any_of(lists.records, &CellRecord::oneSided);
+  lists.behindFacets = std::ranges::any_of(
+      lists.records, [](const CellRecord& record) { return record.behindFacet != CellRecord::kVertex; });
   lists.amongReceivers = std::ranges::any_of(lists.tiles, &TileList::amongReceivers);
   return lists;
 }

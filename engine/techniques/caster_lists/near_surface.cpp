@@ -326,8 +326,6 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
   const OuterSides outer(light, receivers.box);
   const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
                            lightIsBefore(receivers, light);
-  // No facet of a convex caster reaches before another.
-  if (lightBefore && surface.closed && surface.convex && surface.whole) return;
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
@@ -345,6 +343,19 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
     result.push_back(f);
   }
+}
+
+OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers) {
+  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty()) return OwnHorizon::unknown;
+  bool before = true, behind = true;
+  for (const ReceiverPatch& patch : receivers.patches) {
+    const int side = sideOf(patch.plane, light);
+    // Seen from within, a convex surface hides everything.
+    if (patch.eitherSide || patch.turned) return OwnHorizon::unknown;
+    before &= side > 0;
+    behind &= side < 0;
+  }
+  return before ? OwnHorizon::before : behind ? OwnHorizon::behind : OwnHorizon::across;
 }
 
 void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,

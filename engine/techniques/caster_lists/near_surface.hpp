@@ -109,6 +109,15 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
                       const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
                       std::vector<std::uint32_t>& result);
 
+/// What a convex surface hides of a part of the light from receivers on it: what lies behind their own facet.
+enum class OwnHorizon {
+  unknown,  ///< it is not convex, or not all of its caster
+  before,   ///< nothing: the light is before all of them
+  behind,   ///< all of it
+  across    ///< it is neither for all of them
+};
+OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers);
+
 /// Loops of `facets`: first around those that stand before all receivers (and, of a convex caster, those
 /// among them), joined; then around each of the others; then around each of those that cover only for
 /// receivers on their inner side, of which there are some on either: a fragment counts them where what they
