@@ -74,7 +74,11 @@ void hs_findList() {
   HS_HIGHP vec3 n = cross(dFdx(hs_receiver), dFdy(hs_receiver));
 #endif
   // Towards the eye: that side of the surface is seen.
-  hs_away = sign(n) * (dot(n, u_eyeLight.xyz - u_eyeLight.w * hs_receiver) < 0.0 ? -1.0 : 1.0);
+  n *= dot(n, u_eyeLight.xyz - u_eyeLight.w * hs_receiver) < 0.0 ? -1.0 : 1.0;
+  hs_away = sign(n);
+#ifdef HS_BEHIND_FACETS
+  hs_facet = n;
+#endif
 #endif
 }
 

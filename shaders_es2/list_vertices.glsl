@@ -66,6 +66,20 @@ struct HS_Tags {
   HS_HIGHP vec2 side;
 };
 
+#ifdef HS_BEHIND_FACETS
+HS_HIGHP vec3 hs_facet = vec3(0.0);  // how the plane of the receiver's facet rises along (t, i), on its visible side
+// Corner 0, 1 or 2 of a triangle that has of the light what lies behind that plane, counter-clockwise.
+HS_HIGHP vec3 hs_behindFacet(HS_HIGHP float corner) {
+  HS_HIGHP float slope = max(length(hs_facet.xy), HS_SMALL);
+  HS_HIGHP vec2 outward = hs_facet.xy / slope;
+  // On the light the plane is a line: so far from its centre, or at least well outside.
+  HS_HIGHP vec2 middle = -clamp(hs_facet.z / slope, -4.0, 4.0) * outward;
+  HS_HIGHP float along = corner < 0.5 ? -16.0 : corner < 1.5 ? 16.0 : 0.0;
+  HS_HIGHP vec2 at = middle + along * vec2(-outward.y, outward.x) - (corner < 1.5 ? 0.0 : 32.0) * outward;
+  return vec3(at, 1.0) * (4.0 * hs_near);
+}
+#endif
+
 // A vertex as (x w, y w, w) on the light's plane; moves on to the next.
 HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS_Tags tags) {
   HS_COUNT(2);
@@ -87,8 +101,15 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   tags.oneSided = step(7.5, rest);
   rest -= 8.0 * tags.oneSided;
 #endif
+#ifdef HS_BEHIND_FACETS
+  HS_HIGHP float behind = step(3.5, rest);
+  rest -= 4.0 * behind;
+#endif
   tags.ends = rest;
   at = hs_recordAfter(at);
+#ifdef HS_BEHIND_FACETS
+  if (behind > 0.5) return hs_behindFacet(value.x);
+#endif
   return value * hs_step * bytes.y * bytes.y + origin;
 }
 

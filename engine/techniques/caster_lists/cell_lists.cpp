@@ -70,6 +70,16 @@ void appendCaster(const CasterLoops& caster, const SubLight& light, const Tangen
   if (records.size() > before) records.back().end = CellRecord::End::caster;
 }
 
+/// The triangle that covers of the light what lies behind a fragment's own facet.
+void appendBehindFacet(std::uint8_t subLight, std::vector<CellRecord>& records) {
+  for (const std::int8_t corner : {0, 1, 2, 0}) {
+    records.push_back({.subLight = subLight, .behindFacet = corner});
+  }
+  records[records.size() - 4].startsLoop = true;
+  records.back().closesLoop = true;
+  records.back().end = CellRecord::End::caster;
+}
+
 /// The box around all non-empty boxes of a block of tiles.
 TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
   TangentBox all;
@@ -128,8 +138,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
       forEachLayer(loops, caster, add);
       continue;
     }
-    const bool among =
-        !caster.enclosesLight && (!caster.convex || (caster.object == receiver.ownObject && caster.coarse));
+    const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(low, caster.high) != 0) continue;
     if (!among || !addNear(caster)) add(caster);
   }
@@ -152,7 +161,7 @@ bool castersApart(std::span<const CellRecord> list, const TangentBox& receivers)
   casters.clear();
   bool starts = true;
   for (const CellRecord& record : list) {
-    if (record.ti.z <= receivers.iHigh) return false;
+    if (record.behindFacet != CellRecord::kVertex || record.ti.z <= receivers.iHigh) return false;
     if (starts) {
       SeenRange none;
       none.low.fill(1e30f), none.high.fill(-1e30f);
@@ -214,6 +223,14 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       } else {
         // Only of its own tiles the patches are known.
         const bool own = choice == FacetChoice::asReceiversSee;
+        const OwnHorizon horizon = own ? ownHorizon(*surface, loops.light, set) : OwnHorizon::unknown;
+        if (horizon != OwnHorizon::unknown) {
+          full = horizon == OwnHorizon::behind;
+          if (horizon != OwnHorizon::across) continue;
+          appendBehindFacet(static_cast<std::uint8_t>(s), records);
+          if (list.casters < 255) ++list.casters;
+          continue;
+        }
         add(simplify(*surface, facets, loops.light,
                      own ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
       }
@@ -228,10 +245,11 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
   }
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
   list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
-    return record.ti.z < receivers.iHigh;
+    return record.behindFacet == CellRecord::kVertex && record.ti.z < receivers.iHigh;
   });
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
-               (list.casters == 1 || castersApart(std::span(records).subspan(list.first), receivers));
+               ((list.casters == 1 && records.back().behindFacet == CellRecord::kVertex) ||
+                castersApart(std::span(records).subspan(list.first), receivers));
   if (list.count > 0) records.back().end = CellRecord::End::list;
   return list;
 }
@@ -258,10 +276,10 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
             lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
             continue;
           }
-          lists.tiles[tile] = tileList(subLights, block,
-                                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile),
-                                        surfaces.nextTile()},
-                                       edges, lists.records);
+          lists.tiles[tile] =
+              tileList(subLights, block,
+                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
+                       edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }
@@ -269,6 +287,8 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
     }
   }
   lists.oneSided = std::ranges::any_of(lists.records, &CellRecord::oneSided);
+  lists.behindFacets = std::ranges::any_of(
+      lists.records, [](const CellRecord& record) { return record.behindFacet != CellRecord::kVertex; });
   lists.amongReceivers = std::ranges::any_of(lists.tiles, &TileList::amongReceivers);
   return lists;
 }

@@ -11,11 +11,6 @@ namespace {
 /// than every receiver.
 constexpr float kFarMargin = 1e-3f, kFarRounding = 1e-5f;
 
-/// Faces of a caster up to which it counts as coarse. Convex casters of more, seen from the centre of a
-/// quarter of the light, are wrong by at most .034 on their own surfaces (762 faces), at a third of the
-/// vertices.
-constexpr std::uint32_t kCoarseFaces = 64;
-
 /// Cuts a closed loop at i = iLow, dropping what is farther from the light.
 void cutFar(std::span<const glm::vec3> loop, float iLow, std::vector<glm::vec3>& out) {
   out.clear();
@@ -232,10 +227,6 @@ class Simplifier {
 };
 }  // namespace
 
-bool isCoarse(const scene::CasterPart& part) {
-  return part.faceCount <= kCoarseFaces;
-}
-
 void CasterLoops::clear() {
   points.clear();
   loops.clear();
@@ -246,7 +237,6 @@ void CasterLoops::clear() {
   firstLayer = layerCount = 0;
   object = part = 0;
   convex = true;
-  coarse = false;
 }
 
 void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
@@ -281,9 +271,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     caster.deepest = 1.0f / source.deepest;
     caster.object = source.object;
     caster.part = source.part;
-    const scene::CasterPart& part = casters[source.object].mesh->parts()[source.part];
-    caster.convex = part.convex;
-    caster.coarse = isCoarse(part);
+    caster.convex = casters[source.object].mesh->parts()[source.part].convex;
   }
   return result;
 }

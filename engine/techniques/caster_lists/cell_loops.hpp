@@ -15,9 +15,6 @@
 
 namespace halfshadow::techniques {
 
-/// Of so few faces that a silhouette differs much from point to point of the light.
-bool isCoarse(const scene::CasterPart& part);
-
 /// Loops of one caster part seen from one sub-light, in (t, i); counter-clockwise around what they cover.
 struct CasterLoops {
   struct Loop {
@@ -35,7 +32,6 @@ struct CasterLoops {
   std::uint32_t object = 0, part = 0;
   /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
   bool convex = true;
-  bool coarse = false;
 
   void clear();
   void addLoop(std::span<const glm::vec3> loop);

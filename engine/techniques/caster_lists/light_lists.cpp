@@ -208,6 +208,9 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
     return receiver.second.lists.amongReceivers && !receiver.second.casts;
   });
+  const bool behind =
+      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
+  if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");
   shading.mapFromWorld = loops_.space().homogeneousFromWorld();

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 namespace halfshadow::techniques {
 namespace {
@@ -30,20 +31,23 @@ struct Range {
 /// than the others, so that neither far casters nor wide receivers make a near vertex coarse.
 EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
   float farthest = 1e30f, nearest = -1e30f;
-  for (const CellRecord& record : records) {
+  const auto isVertex = [](const CellRecord& record) { return record.behindFacet == CellRecord::kVertex; };
+  if (std::ranges::none_of(records, isVertex)) return {};
+  for (const CellRecord& record : records | std::views::filter(isVertex)) {
     farthest = std::min(farthest, record.ti.z);
     nearest = std::max(nearest, record.ti.z);
   }
   const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
   Range fine;
-  for (const CellRecord& record : records) {
+  for (const CellRecord& record : records | std::views::filter(isVertex)) {
     // Receivers may stand on the facets of one-sided loops, off by no more than a step.
     if (record.ti.z <= fineUpTo || record.oneSided) fine.include(record.ti);
   }
   EncodedLists::Placed placed;
   placed.center = 0.5f * (fine.low + fine.high);
   glm::vec3 least(0.0f);
-  for (const CellRecord& record : records) least = glm::max(least, glm::abs(record.ti - placed.center));
+  for (const CellRecord& record : records | std::views::filter(isVertex))
+    least = glm::max(least, glm::abs(record.ti - placed.center));
   least = glm::max(least / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
   // The centre must be in reach. That step is what single precision knows of such coordinates.
   least = glm::max(least, glm::abs(placed.center) / (32766.0f * kCenterSteps));
@@ -71,13 +75,16 @@ void encodePlacement(const EncodedLists::Placed& placed, std::uint8_t* texels) {
 }
 
 void encodeRecord(const CellRecord& record, const EncodedLists::Placed& placed, std::uint8_t* texels) {
-  const glm::vec3 offset = (record.ti - placed.center) / placed.step;
+  const bool isVertex = record.behindFacet == CellRecord::kVertex;
+  const glm::vec3 offset =
+      isVertex ? (record.ti - placed.center) / placed.step : glm::vec3(record.behindFacet, 0.0f, 0.0f);
   const float largest = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
   const float scale = std::clamp(std::ceil(std::sqrt(largest / 32767.0f)), 1.0f, 255.0f);
   for (int k = 0; k < 3; ++k) putCode(offset[k] / (scale * scale), texels + 2 * k);
   texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
                                         (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
-                                        (record.oneSided ? 8 : 0) | static_cast<int>(record.end));
+                                        (record.oneSided ? 8 : 0) | (isVertex ? 0 : 4) |
+                                        static_cast<int>(record.end));
   texels[7] = static_cast<std::uint8_t>(scale);
 }
 

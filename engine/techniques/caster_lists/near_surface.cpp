@@ -208,7 +208,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   // Faces that look towards the light run clockwise in (a, b), unless the object is mirrored.
   const bool turned = glm::determinant(linear) > 0.0;
 
-  NearSurface surface{.closed = own.closed, .convex = own.convex};
+  NearSurface surface{.closed = own.closed, .convex = own.convex, .whole = mesh.parts().size() == 1};
   std::vector<glm::dvec3> abh(mesh.positions().size());
   std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cutOf;  // of edges, by their vertices
@@ -343,6 +343,19 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
     result.push_back(f);
   }
+}
+
+OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers) {
+  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty()) return OwnHorizon::unknown;
+  bool before = true, behind = true;
+  for (const ReceiverPatch& patch : receivers.patches) {
+    const int side = sideOf(patch.plane, light);
+    // Seen from within, a convex surface hides everything.
+    if (patch.eitherSide || patch.turned) return OwnHorizon::unknown;
+    before &= side > 0;
+    behind &= side < 0;
+  }
+  return before ? OwnHorizon::before : behind ? OwnHorizon::behind : OwnHorizon::across;
 }
 
 void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,

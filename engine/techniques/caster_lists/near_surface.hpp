@@ -56,6 +56,7 @@ struct NearSurface {
   mutable std::vector<Side> sides;
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
+  bool whole = false;   ///< the caster has no other part
 };
 
 /// What reaches through the plane h = minHeight is cut there.
@@ -107,6 +108,15 @@ void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
 void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
                       const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
                       std::vector<std::uint32_t>& result);
+
+/// What a convex surface hides of a part of the light from receivers on it: what lies behind their own facet.
+enum class OwnHorizon {
+  unknown,  ///< it is not convex, or not all of its caster
+  before,   ///< nothing: the light is before all of them
+  behind,   ///< all of it
+  across    ///< it is neither for all of them
+};
+OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers);
 
 /// Loops of `facets`: first around those that stand before all receivers (and, of a convex caster, those
 /// among them), joined; then around each of the others; then around each of those that cover only for

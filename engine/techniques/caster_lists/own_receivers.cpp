@@ -11,7 +11,7 @@ Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const 
                                          std::span<const SubLight> subLights, OwnSurfaces which) {
   if (!shading) return shading;
   const auto needsNone = [which](const scene::CasterPart& part) {
-    return part.convex && (which == OwnSurfaces::hollow || !isCoarse(part));
+    return part.convex && which == OwnSurfaces::hollow;
   };
   const bool some = std::ranges::any_of(frame.receivers, [&](const DrawItem& item) {
     const std::uint32_t own = placedCasterOf(frame, item);

@@ -13,8 +13,8 @@ namespace halfshadow::techniques {
 
 /// Which casters' own surfaces need lists.
 enum class OwnSurfaces {
-  hollow,         ///< those that are not convex
-  hollowOrCoarse  ///< and those of few faces, as lists of several sub-lights have them
+  hollow,  ///< those that are not convex
+  all      ///< a silhouette is that of one point of the light, and own facets know all others
 };
 
 /// Makes casting receivers of `shading` walk lists, for a fragment file that does so with

@@ -15,7 +15,7 @@ struct Polygon {
   int count = 0;
   glm::dvec3 low{1e300}, high{-1e300};
   glm::dvec4 plane{0.0};
-  bool eitherSide = false;
+  bool eitherSide = false, turned = false;
   void add(const glm::dvec3& p) {
     points[count++] = p;
     low = glm::min(low, p);
@@ -96,7 +96,8 @@ void faceLight(Polygon& polygon, bool closed) {
   const double middle = polygon.plane.w, reach = std::abs(polygon.plane.x) + std::abs(polygon.plane.y);
   if (closed) return;
   polygon.eitherSide = std::abs(middle) <= reach;
-  if (middle < -reach) polygon.plane = -polygon.plane;
+  polygon.turned = middle < -reach;
+  if (polygon.turned) polygon.plane = -polygon.plane;
 }
 
 void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& found) {
@@ -135,7 +136,8 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
       if (found.wanted) {
         found.tile.push_back(static_cast<std::uint32_t>(tile));
         found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.plane,
-                               liftOf(polygon.plane, low, high, iLow, iHigh), polygon.eitherSide});
+                               liftOf(polygon.plane, low, high, iLow, iHigh), polygon.eitherSide,
+                               polygon.turned});
       }
       TangentBox& box = tiles.boxes[tile];
       const double rounding = 2.0 * kPlaceRounding * std::max(std::abs(iLow), std::abs(iHigh));

@@ -31,6 +31,7 @@ struct ReceiverPatch {
   glm::dvec4 plane{0.0};
   glm::dvec3 lift{0.0};     ///< in (t, i): by so much at least its fragments stand off it
   bool eitherSide = false;  ///< the light lies on both sides of the plane, and fragments may
+  bool turned = false;      ///< it is seen from its inner side
 };
 
 /// A grid over the tangents that a receiver and the shadows share; `boxes` row by row, empty where the

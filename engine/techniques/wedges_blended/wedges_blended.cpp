@@ -128,7 +128,7 @@ class WedgesBlended final : public Technique {
   static Result<ReceiverShading> withOwn(Result<ReceiverShading> shading, const LightFrame& frame,
                                          LightLists& lists) {
     return techniques::withOwnReceivers(std::move(shading), frame, lists, "wedges-blended.tiles",
-                                        {&kWholeLight, 1}, OwnSurfaces::hollow);
+                                        {&kWholeLight, 1}, OwnSurfaces::all);
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.

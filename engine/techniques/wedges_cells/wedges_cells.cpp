@@ -92,7 +92,7 @@ Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
                                     std::stoi(frame.settings.choice("wedges-cells.bytes")),
                                     route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
   return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], "wedges-cells.tiles",
-                          kQuarters, OwnSurfaces::hollowOrCoarse);
+                          kQuarters, OwnSurfaces::all);
 }
 
 Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
