@@ -28,9 +28,9 @@ std::string ruleText(Rule rule);
 struct Variant {
   std::string name;  ///< "1e-25"
   scene::SceneDescription scene;
-  std::string base{};                       ///< variant of the case `base`; empty for closed forms
+  std::string base{};                      ///< variant of the case `base`; empty for closed forms
   std::vector<scene::AreaLight> frames{};  ///< steady: the light of each frame
-  bool judgeBehindLight = false;            ///< receivers beside and behind the light's plane count too
+  bool judgeBehindLight = false;           ///< receivers beside and behind the light's plane count too
 };
 
 struct Case {

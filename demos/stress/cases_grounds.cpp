@@ -32,7 +32,8 @@ std::vector<Variant> wideGrounds(std::uint64_t) {
 std::vector<Variant> castingGrounds(std::uint64_t) {
   std::vector<Variant> all;
   for (const double width : {40.0, 120.0, 141.0, 142.0, 12000.0})
-    all.push_back({std::to_string(static_cast<int>(width)), withGround(baseScene("box"), width, true), "box"});
+    all.push_back(
+        {std::to_string(static_cast<int>(width)), withGround(baseScene("box"), width, true), "box"});
   all.push_back({"figure-120", withGround(baseScene("figure"), 120, true), "figure"});
   return all;
 }

@@ -42,7 +42,8 @@ Shape needles(const Shape& shape, int count) {
     const std::uint32_t apex = result.addVertex(corner[0]);
     std::uint32_t before = result.addVertex(corner[1]);
     for (int n = 1; n <= count; ++n) {
-      const std::uint32_t next = result.addVertex(glm::mix(corner[1], corner[2], static_cast<double>(n) / count));
+      const std::uint32_t next =
+          result.addVertex(glm::mix(corner[1], corner[2], static_cast<double>(n) / count));
       result.addTriangle(apex, before, next);
       before = next;
     }
@@ -74,7 +75,8 @@ Shape doubled(Shape shape) {
 Shape tJunctions(Shape shape) {
   const std::uint32_t a = shape.indices[0], b = shape.indices[1], c = shape.indices[2];
   const auto at = [&](std::uint32_t i) { return glm::dvec3(shape.positions[i]); };
-  const std::uint32_t ab = shape.addVertex(0.5 * (at(a) + at(b))), bc = shape.addVertex(0.5 * (at(b) + at(c))),
+  const std::uint32_t ab = shape.addVertex(0.5 * (at(a) + at(b))),
+                      bc = shape.addVertex(0.5 * (at(b) + at(c))),
                       ca = shape.addVertex(0.5 * (at(c) + at(a)));
   shape.indices.erase(shape.indices.begin(), shape.indices.begin() + 3);
   shape.addTriangle(a, ab, ca);
@@ -100,8 +102,8 @@ SceneDescription bush(std::uint64_t seed) {
     const glm::dvec3 x = random.direction();
     glm::dvec3 y = glm::cross(x, random.direction());
     if (glm::length(y) < 1e-3) y = glm::cross(x, glm::dvec3(0, 1, 0.3));
-    shape.append(boxShape(glm::dvec3(0, 1.8, 0) + 0.4 * random.direction(), {1.1, 0.015, 0.01}, x,
-                          glm::normalize(y)));
+    shape.append(
+        boxShape(glm::dvec3(0, 1.8, 0) + 0.4 * random.direction(), {1.1, 0.015, 0.01}, x, glm::normalize(y)));
   }
   scene.objects.front() = rawObject("bush", shape);
   return scene;
@@ -127,7 +129,8 @@ std::vector<Variant> hostileShapes(std::uint64_t seed) {
 
 std::vector<Case> hostileCases() {
   return {
-      {"same-box", "the box in needles, with triangles of no area, duplicates, T-junctions", Rule::same, sameBox},
+      {"same-box", "the box in needles, with triangles of no area, duplicates, T-junctions", Rule::same,
+       sameBox},
       {"hostile", "nested shells, a bush of needles, casters that pierce each other or the ground", Rule::own,
        hostileShapes},
   };

@@ -88,9 +88,8 @@ std::vector<Variant> depthRange(std::uint64_t) {
     const double half = distance / 3.0;
     return with(box, "chip", boxShape(light.centerWorld + distance * aim + 0.4 * u, glm::dvec3(half)));
   };
-  std::vector<Variant> all{{"chip-1e-2", chip(1e-2), "box"},
-                           {"chip-1e-3", chip(1e-3), "box"},
-                           {"chip-1e-4", chip(1.2e-4), "box"}};
+  std::vector<Variant> all{
+      {"chip-1e-2", chip(1e-2), "box"}, {"chip-1e-3", chip(1e-3), "box"}, {"chip-1e-4", chip(1.2e-4), "box"}};
   SceneDescription camera = box;
   camera.camera->nearDistance = 1e-3;
   camera.camera->farDistance = 100.0;

@@ -62,8 +62,8 @@ std::vector<Variant> turning(std::uint64_t) {
     Variant variant{base, baseScene(base), base};
     for (int frame = 0; frame < kFrames; ++frame) {
       scene::AreaLight light = variant.scene.lights.front();
-      const glm::dmat3 turn(glm::rotate(glm::dmat4(1.0), frame * 0.25 * std::numbers::pi / 180.0,
-                                        glm::dvec3(0, 1, 0)));
+      const glm::dmat3 turn(
+          glm::rotate(glm::dmat4(1.0), frame * 0.25 * std::numbers::pi / 180.0, glm::dvec3(0, 1, 0)));
       light.centerWorld = turn * light.centerWorld;
       light.halfU = turn * light.halfU;
       light.halfV = turn * light.halfV;

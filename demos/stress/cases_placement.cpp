@@ -62,8 +62,8 @@ std::vector<Variant> orders(std::uint64_t seed) {
   Random random(seed + 3);
   std::vector<Variant> all;
   for (const char* base : {"figure", "leaves", "figure"})
-    all.push_back({base + std::string("-") + std::to_string(all.size()), reordered(baseScene(base), random),
-                   base});
+    all.push_back(
+        {base + std::string("-") + std::to_string(all.size()), reordered(baseScene(base), random), base});
   all.push_back({"figure-unwelded", unwelded(baseScene("figure")), "figure"});
   return all;
 }

@@ -12,9 +12,9 @@ using scenes::Shape;
 
 /// Camera inside, light outside; a table inside.
 SceneDescription house(const Shape& walls, const glm::dvec3& eye, const glm::dvec3& target) {
-  return stage({scenes::casterOf("walls", walls), boxObject("table", {0, 0.4, -1}, {0.4, 0.4, 0.4}),
-                floorObject(40)},
-               lightDown({3, 9, 4}, 0.5, 0.5), eye, target, 1.0);
+  return stage(
+      {scenes::casterOf("walls", walls), boxObject("table", {0, 0.4, -1}, {0.4, 0.4, 0.4}), floorObject(40)},
+      lightDown({3, 9, 4}, 0.5, 0.5), eye, target, 1.0);
 }
 
 std::vector<Variant> inside(std::uint64_t seed) {
@@ -25,14 +25,14 @@ std::vector<Variant> inside(std::uint64_t seed) {
   const SceneDescription turned =
       house(boxShape({0, 1.5, 0}, {3, 1.5, 3}, {std::cos(turn), 0, std::sin(turn)}, {0, 1, 0}),
             {0.8, 1.6, 1.2}, target);
-  return {{"box", box},
-          {"inward", flipped(box, FlipRule::all)},
-          {"turned", turned},
-          {"tunnel", house(boxShape({0, 1.5, 0}, {1.5, 1.5, 40}), {0.4, 1.6, 8}, {0, 1.0, -10})},
-          {"jar", house(scenes::icosphereShape({0, 1, 0}, 2.8, 3), {1.2, 1.6, 1.2}, {0, 0.3, -1})},
-          {"jar-inward",
-           flipped(house(scenes::icosphereShape({0, 1, 0}, 2.8, 3), {1.2, 1.6, 1.2}, {0, 0.3, -1}),
-                   FlipRule::all)}};
+  return {
+      {"box", box},
+      {"inward", flipped(box, FlipRule::all)},
+      {"turned", turned},
+      {"tunnel", house(boxShape({0, 1.5, 0}, {1.5, 1.5, 40}), {0.4, 1.6, 8}, {0, 1.0, -10})},
+      {"jar", house(scenes::icosphereShape({0, 1, 0}, 2.8, 3), {1.2, 1.6, 1.2}, {0, 0.3, -1})},
+      {"jar-inward", flipped(house(scenes::icosphereShape({0, 1, 0}, 2.8, 3), {1.2, 1.6, 1.2}, {0, 0.3, -1}),
+                             FlipRule::all)}};
 }
 
 Shape quad(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {

@@ -153,7 +153,8 @@ Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Erro
   const auto falseShare = [&](double allowed) {
     return figure("%.2f %% false pixels (at most %.2f %%)", 100.0 * errors.falseShare, 100.0 * allowed);
   };
-  // Never worse than hard shadows. A tenth, and a hundredth, for edges that fall on the other side of a pixel.
+  // Never worse than hard shadows. A tenth, and a hundredth, for edges that fall on the other side of a
+  // pixel.
   const double hardLimit = 1.1 * hard.rmseBeyondPixel + 0.01;
   if (errors.rmseBeyondPixel > hardLimit)
     add(judgement, Verdict::wrong,
@@ -164,10 +165,10 @@ Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Erro
   if (judgement.verdict == Verdict::wrong || rule == Rule::base) return judgement;
 
   // What the base scene's error does not explain: nothing may do so where the scene is the same.
-  const Verdict more = !fellBack.empty() ? Verdict::fellBack
-                                         : (rule == Rule::same ? Verdict::wrong : Verdict::worse);
-  const bool comparable = errors.penumbra >= kFewestPenumbraPixels && base != nullptr &&
-                          base->penumbra >= kFewestPenumbraPixels;
+  const Verdict more =
+      !fellBack.empty() ? Verdict::fellBack : (rule == Rule::same ? Verdict::wrong : Verdict::worse);
+  const bool comparable =
+      errors.penumbra >= kFewestPenumbraPixels && base != nullptr && base->penumbra >= kFewestPenumbraPixels;
   if (comparable) {
     const double own = 1.3 * without(base->penumbraRmse, truthNoise);
     const double limit = std::sqrt(own * own + truthNoise * truthNoise) + kSlack;
@@ -204,7 +205,8 @@ Judgement judgedLit(const Errors& errors) {
 Judgement judgedSteady(double jump) {
   Judgement judgement;
   // Where a hard edge passes, the picture jumps whole; soft ones stay below a sixteenth of the light.
-  if (jump > 0.06) add(judgement, Verdict::worse, figure("jumps by %.3f at p99.9 (at most %.2f)", jump, 0.06));
+  if (jump > 0.06)
+    add(judgement, Verdict::worse, figure("jumps by %.3f at p99.9 (at most %.2f)", jump, 0.06));
   return judgement;
 }
 

@@ -24,7 +24,8 @@ bool isOrdinary(const SkipRecord& skip) {
   const std::string what = skip.what, why = skip.why;
   if (what.starts_with("caster ") || what.starts_with("receiver ")) return true;
   const auto said = [&](const char* code) { return why.starts_with(code); };
-  return said("unchanged") || said("not-read") || said("no-casters") || said("light-off");
+  return said("unchanged") || said("not-read") || said("no-casters") || said("light-off") ||
+         said("no caster can shadow a receiver");
 }
 
 std::string fallBackOf(const FrameReport& report) {
@@ -50,11 +51,12 @@ class Runner {
     for (const Variant& variant : variants) {
       result.variants.push_back(variant.name);
       if (options_.progress)
-        options_.progress(asked.name + " " + variant.name,
-                          static_cast<double>(result.variants.size() - 1) / static_cast<double>(variants.size()));
+        options_.progress(asked.name + " " + variant.name, static_cast<double>(result.variants.size() - 1) /
+                                                               static_cast<double>(variants.size()));
       const Status done =
           asked.rule == Rule::steady ? judgeFrames(variant, result) : judgeVariant(asked, variant, result);
-      if (!done) return Error{done.error().code, asked.name + " " + variant.name + ": " + done.error().message};
+      if (!done)
+        return Error{done.error().code, asked.name + " " + variant.name + ": " + done.error().message};
     }
     // The reference answers where something else than itself knows.
     if (result.cells.back().variants.empty()) result.cells.pop_back();
@@ -71,8 +73,7 @@ class Runner {
   }
 
   Result<Yardstick> yardstickOf(const Variant& variant) {
-    auto truth =
-        measure::traceTruth(variant.scene, options_.width, options_.height, options_.samples, {});
+    auto truth = measure::traceTruth(variant.scene, options_.width, options_.height, options_.samples, {});
     if (!truth) return truth.error();
     Yardstick yardstick{.truth = std::move(truth).value()};
     scene::AreaLight center = variant.scene.lights.front();
@@ -165,11 +166,11 @@ class Runner {
       std::ranges::fill(own.truth.visibility, asked.rule == Rule::lit ? 1.0f : 0.0f);
       own.hard = own.truth.visibility;
     } else if (shared) {
-      auto picture = traced(variant.scene, variant.scene.lights.front(), yardstick->truth.receivers, 1, 1);
-      auto receivers = reference::traceReceivers(variant.scene, *variant.scene.camera,
-                                                 variant.scene.lights.front(), options_.width, options_.height);
+      const scene::AreaLight& light = variant.scene.lights.front();
+      auto receivers = reference::traceReceivers(variant.scene, *variant.scene.camera, light, options_.width,
+                                                 options_.height);
       if (!receivers) return receivers.error();
-      picture = traced(variant.scene, variant.scene.lights.front(), *receivers, options_.samples, 2);
+      auto picture = traced(variant.scene, light, *receivers, options_.samples, 2);
       if (!picture) return picture.error();
       tracedHere = std::move(picture).value();
     }
@@ -204,8 +205,8 @@ class Runner {
           base = *found;
           judgedHere.base = *base;
         }
-        judgedHere.judgement = judged(asked.rule, judgedHere.errors, base, hard, noiseOf(*yardstick),
-                                      judgedHere.fellBack);
+        judgedHere.judgement =
+            judged(asked.rule, judgedHere.errors, base, hard, noiseOf(*yardstick), judgedHere.fellBack);
       }
       if (Status s = dump(asked, variant, cell.technique, judgedHere, *yardstick, picture); !s) return s;
       cell.variants.push_back(std::move(judgedHere));
