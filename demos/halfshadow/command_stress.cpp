@@ -19,7 +19,7 @@ struct Arguments {
   SizeArguments size{.text = "96x72", .width = 96, .height = 72};
   DriverArguments driver;
   SettingArguments settings;
-  int samples = 256;
+  int samples = 256, variants = 0;
   std::uint64_t seed = 1;
   bool list = false;
   std::string dump, json;
@@ -62,6 +62,7 @@ ExitStatus stressTechniques(const Arguments& arguments) {
                           .height = arguments.size.height,
                           .samples = arguments.samples,
                           .seed = arguments.seed,
+                          .variantsPerCase = arguments.variants,
                           .settings = settingsOf(arguments.settings),
                           .dumpFolder = arguments.dump};
   const auto start = std::chrono::steady_clock::now();
@@ -112,6 +113,11 @@ void addStressCommand(CLI::App& app, ExitStatus& status) {
       ->check(CLI::Range(1, 1 << 24))
       ->capture_default_str();
   command->add_option("--seed", arguments->seed, "of the cases' random numbers")->capture_default_str();
+  command
+      ->add_option("--variants", arguments->variants,
+                   "at most so many scenes of each case, chosen by the seed; 0 = all")
+      ->check(CLI::Range(0, 1000))
+      ->capture_default_str();
   command->add_option(
       "--dump", arguments->dump,
       "folder for pictures of cells that are worse or wrong: expected, actual, error (red: too "

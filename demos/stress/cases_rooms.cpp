@@ -68,7 +68,7 @@ std::vector<Variant> planeRooms(std::uint64_t) {
 
 /// From inside a box without its front: nothing but what comes in through the front is lit.
 std::vector<Variant> openBox(std::uint64_t) {
-  Shape shape = boxShape({0, 1.5, 0}, {2, 1.5, 2});
+  Shape shape = boxShape({0, 1.7, 0}, {2, 1.5, 2});
   Shape open;
   open.positions = shape.positions;
   for (std::size_t i = 0; i < shape.indices.size(); i += 3) {

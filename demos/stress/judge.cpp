@@ -164,16 +164,19 @@ Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Erro
     add(judgement, Verdict::wrong, falseShare(1.3 * baseFalse + 0.01));
   if (judgement.verdict == Verdict::wrong || rule == Rule::base) return judgement;
 
-  // What the base scene's error does not explain: nothing may do so where the scene is the same.
-  const Verdict more =
-      !fellBack.empty() ? Verdict::fellBack : (rule == Rule::same ? Verdict::wrong : Verdict::worse);
+  // What the base scene's error does not explain.
+  const Verdict more = fellBack.empty() ? Verdict::worse : Verdict::fellBack;
   const bool comparable =
       errors.penumbra >= kFewestPenumbraPixels && base != nullptr && base->penumbra >= kFewestPenumbraPixels;
   if (comparable) {
-    const double own = 1.3 * without(base->penumbraRmse, truthNoise);
-    const double limit = std::sqrt(own * own + truthNoise * truthNoise) + kSlack;
-    if (errors.penumbraRmse > limit)
-      add(judgement, more, figure("penumbra RMSE %.4f (at most %.4f)", errors.penumbraRmse, limit));
+    const auto limit = [&](double factor) {
+      const double own = factor * without(base->penumbraRmse, truthNoise);
+      return std::sqrt(own * own + truthNoise * truthNoise) + (rule == Rule::same ? kSlackSame : kSlackOwn);
+    };
+    const bool another = rule == Rule::same && fellBack.empty() && errors.penumbraRmse > limit(2.0);
+    if (errors.penumbraRmse > limit(1.3))
+      add(judgement, another ? Verdict::wrong : more,
+          figure("penumbra RMSE %.4f (at most %.4f)", errors.penumbraRmse, limit(1.3)));
   }
   const double allowed = 1.3 * baseFalse + 0.002;
   if (errors.falseShare > allowed) add(judgement, more, falseShare(allowed));

@@ -57,16 +57,18 @@ struct Judgement {
 
 /// `same` and `own`: `base` is the technique's own error in the base scene; `base`: null. `fellBack`: what
 /// the frame's report says of a fall-back, or empty.
-///
-/// ok: penumbra RMSE at most 1.3 × the base's (rasterised and traced outlines, other edges in other
-/// directions; what the truth's noise adds is taken out), plus kSlack; false pixels at most 1.3 × the base's
-/// share plus 1 in 500 (single pixels at outlines).
-/// wrong: errors beyond a pixel larger than exact hard shadows have, or false pixels beyond the base's and 1
-/// in 100; for `same` all that is not ok.
+///  - ok: the penumbra RMSE is at most 1.3 × the base's (other edges, in other directions; what the truth's
+///    noise adds is taken out) plus kSlack; the share of false pixels at most 1.3 × the base's plus 1 in 500
+///    (single pixels at outlines).
+///  - worse: more than that; fellBack: more, and the frame's report says why.
+///  - wrong: errors beyond a pixel are larger than those of exact hard shadows, or false pixels are more than
+///    1.3 × the base's share plus 1 in 100; for `same`, also a penumbra RMSE of more than twice the base's
+///    plus kSlack without a reason: the picture should be the same.
 Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Errors& hard, double truthNoise,
                  const std::string& fellBack);
-/// Penumbra RMSE: two roundings to 8 bits and the choice of pixels.
-inline constexpr double kSlack = 0.004;
+/// Penumbra RMSE. `same`: two roundings to 8 bits. `own`: the share of pixels where edges meet, or where a
+/// caster touches its receiver, is another.
+inline constexpr double kSlackSame = 0.004, kSlackOwn = 0.012;
 /// Fewer penumbra pixels say little about an RMSE.
 inline constexpr std::size_t kFewestPenumbraPixels = 40;
 

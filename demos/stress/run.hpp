@@ -19,6 +19,8 @@ struct Options {
   int width = 96, height = 72;
   int samples = 256;  ///< light points per pixel of the truth
   std::uint64_t seed = 1;
+  /// At most so many scenes of each case, chosen by the seed; 0 = all. The case `base` keeps all of its own.
+  int variantsPerCase = 0;
   std::vector<measure::Setting> settings{};
   std::filesystem::path dumpFolder{};  ///< empty = none
   /// Stage and share done, 0 … 1. May be empty.
@@ -37,8 +39,8 @@ struct VariantResult {
 /// One technique in one case: its gravest variant.
 struct Cell {
   std::string technique;
-  std::vector<VariantResult> variants;
-  const VariantResult& gravest() const;
+  std::vector<VariantResult> variants;   ///< empty where the case asks nothing of it
+  const VariantResult& gravest() const;  ///< ok when there are none
 };
 
 struct CaseResult {
@@ -46,7 +48,7 @@ struct CaseResult {
   Rule rule = Rule::own;
   std::vector<std::string> variants;
   double noiseRmse = 0.0;   ///< largest, of one truth image
-  std::vector<Cell> cells;  ///< one per technique, then the reference's where the answer is known without it
+  std::vector<Cell> cells;  ///< one per column of the table
 };
 
 struct Table {
@@ -56,7 +58,7 @@ struct Table {
 };
 
 /// The column of the ray tracer itself: its own picture of the variant where the answer is a closed form or
-/// the truth of the base scene.
+/// the truth of the base scene; nothing is asked of it elsewhere.
 inline constexpr const char* kReferenceColumn = "reference";
 
 /// Techniques that draw shadows: all of the engine's but `none`, whose answer is "lit" whatever the scene.

@@ -44,8 +44,8 @@ std::vector<std::vector<std::string>> summaryRows(const Table& table) {
   }
   for (const CaseResult& c : table.cases) {
     std::vector<std::string> row{c.name};
-    for (const Cell& cell : c.cells) row.emplace_back(verdictText(cell.gravest().judgement.verdict));
-    row.resize(table.techniques.size() + 1, "-");
+    for (const Cell& cell : c.cells)
+      row.emplace_back(cell.variants.empty() ? "-" : verdictText(cell.gravest().judgement.verdict));
     rows.push_back(std::move(row));
   }
   return rows;
@@ -85,6 +85,7 @@ Json toJson(const Table& table, const Options& options, const DriverRecord& driv
   for (const CaseResult& c : table.cases) {
     Json cells = Json::array();
     for (const Cell& cell : c.cells) {
+      if (cell.variants.empty()) continue;
       Json variants = Json::array();
       for (const VariantResult& v : cell.variants) variants.push_back(toJson(v, c.rule));
       cells.push_back({{"technique", cell.technique},

@@ -129,6 +129,14 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Counters, testing::ValuesIn(kCosts), [](con
   return name;
 });
 
+TEST_F(FrameReports, EveryTechniqueHasItsCostsWrittenDown) {
+  for (const std::string& id : techniquesBut(renderer().engine(), {})) {
+    EXPECT_TRUE(
+        std::ranges::any_of(kCosts, [&](const Cost& cost) { return cost.configuration.technique == id; }))
+        << id << ": add its passes to kCosts";
+  }
+}
+
 TEST_F(FrameReports, HardFetchesOnceBehindCastersAndNeverMore) {
   const std::string scene = "figure@light=0.3";
   renderer().load(builtinScene(scene));
@@ -164,7 +172,8 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene::SceneDescription scene = PlateOverGround().scene();
   scene.lights.front().intensity = 0.0;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
+  const std::vector<std::string> techniques = techniquesBut(renderer().engine(), {});
+  for (const std::string& technique : techniques) {
     const Image dark = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(dark.rgba, 255), static_cast<std::ptrdiff_t>(dark.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "light-off")) << technique;
@@ -173,7 +182,7 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene.lights.front().intensity = 1.0;
   scene.objects.front().casts = false;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
+  for (const std::string& technique : techniques) {
     const Image lit = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(lit.rgba, 255), static_cast<std::ptrdiff_t>(lit.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "no-casters")) << technique;
