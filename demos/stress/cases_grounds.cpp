@@ -61,17 +61,35 @@ std::vector<Variant> apart(std::uint64_t) {
   return all;
 }
 
-std::vector<Variant> edgeOn(std::uint64_t) {
-  const scene::AreaLight light = lightDown({0, 10, 0}, 1e-4, 1e-4), wide = lightDown({0, 10, 0}, 0.5, 0.5);
+/// A triangle whose plane holds the centre of a light above the origin, over a floor.
+SceneDescription edgeOnTriangle(double lightHalf) {
   scenes::Shape triangle;
-  // Its plane holds the light's centre.
   for (const glm::dvec3& corner : {glm::dvec3(0, 2, 0), glm::dvec3(0, 3, 1.5), glm::dvec3(0, 4, -0.5)})
     triangle.addVertex(corner);
   triangle.addTriangle(0, 1, 2);
-  const auto scene = [&](const scene::AreaLight& from) {
-    return stage({scenes::casterOf("triangle", triangle), floorObject(60)}, from, {4, 6, 7}, {0, 0, 0});
-  };
-  return {{"wide-light", scene(wide), "box"}, {"small-light", scene(light), "box"}};
+  return stage({scenes::casterOf("triangle", triangle), floorObject(60)},
+               lightDown({0, 10, 0}, lightHalf, lightHalf), {4, 6, 7}, {0, 0, 0});
+}
+
+std::vector<Variant> edgeOn(std::uint64_t) {
+  return {{"wide-light", edgeOnTriangle(0.5), "box"}, {"wider-light", edgeOnTriangle(2.0), "box"}};
+}
+
+std::vector<Variant> unshadowed(std::uint64_t seed) {
+  Random random(seed + 11);
+  const scene::AreaLight above = lightDown({0, 6, 0}, 0.25, 0.25);
+  // A box on a wide floor, and the camera looks past it, away from its shadow.
+  const double turn = random.between(0.0, 6.28);
+  const glm::dvec3 away(std::cos(turn), 0, std::sin(turn));
+  const SceneDescription wide = stage({boxObject("box", {0, 0.5, 0}, {0.5, 0.5, 0.5}), floorObject(200)},
+                                      above, 1.5 * away + glm::dvec3(0, 4, 0), 9.0 * away);
+  return {{"wide-floor", wide},
+          {"behind-the-light",
+           stage({boxObject("box", {0, 8, 0}, {2, 0.5, 2}), floorObject(40)}, above, {4, 5, 6}, {0, 0, 0})},
+          {"below-the-floor",
+           stage({boxObject("box", {0, -2, 0}, {2, 0.5, 2}), floorObject(40)}, above, {4, 5, 6}, {0, 0, 0})},
+          {"floor-alone", withGround(stage({floorObject(40)}, above, {4, 5, 6}, {0, 0, 0}), 40, true)},
+          {"edge-on", edgeOnTriangle(1e-4)}};
 }
 }  // namespace
 
@@ -83,6 +101,7 @@ std::vector<Case> groundCases() {
       {"below", "a caster below the ground", Rule::same, below},
       {"coincident", "two grounds in one plane", Rule::same, coincident},
       {"apart", "two objects 100 to 30,000 apart on one ground", Rule::same, apart},
+      {"unshadowed", "casters that can shadow nothing in view", Rule::lit, unshadowed},
       {"edge-on", "a triangle whose plane holds the light's centre", Rule::own, edgeOn},
   };
 }

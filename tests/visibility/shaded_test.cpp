@@ -143,6 +143,24 @@ TEST_F(Shaded, LightsOfAnyColourAddUp) {
   }
 }
 
+// What else the scene holds, and where its shadows fall, is nothing to a lit pixel's brightness.
+TEST_F(Shaded, BrightnessOwesNothingToOtherObjects) {
+  const PlateOverGround plate;
+  const auto corner = [&](const scene::SceneDescription& scene) {
+    renderer().load(scene);
+    return static_cast<int>(shaded("pcss", scene.lights).byte(0));  // outside the plate's penumbra
+  };
+  const int before = corner(plate.scene());
+  EXPECT_GT(before, 60);
+  scene::SceneDescription lifted = plate.scene(), wide = plate.scene(), far = plate.scene();
+  lifted.objects[0] = boxObject({0, 5, 0}, {0.5, 0.2, 0.5});
+  wide.objects[1] = groundPlane(2000.0);
+  far.objects.push_back(boxObject({40, 1, 0}, {1, 1, 1}));
+  EXPECT_NEAR(corner(lifted), before, 1);
+  EXPECT_NEAR(corner(wide), before, 1);
+  EXPECT_NEAR(corner(far), before, 1);
+}
+
 // A light shines to one side of its plane; what lies on the other shows ambient light alone.
 TEST_F(Shaded, NothingIsLitBehindTheLight) {
   scene::SceneDescription scene = PlateOverGround().scene();
@@ -164,6 +182,7 @@ class ShadedTexture : public EngineTest {
     SceneRenderer renderer(makeEngine());
     scene::SceneDescription scene;
     scene.lights = {lightAbove({0, 30, 0}, 1.0, 1.0)};
+    scene.lights.front().intensity = 0.8;  // with what the sky adds, white is not clamped
     scene.camera = cameraAbove(0.0, 0.0, 2.0);
     renderer.load(scene);
     const float positions[] = {-2, 0, -2, 2, 0, -2, 2, 0, 2, -2, 0, 2},
