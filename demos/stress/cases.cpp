@@ -32,6 +32,8 @@ std::string ruleText(Rule rule) {
   switch (rule) {
     case Rule::base:
       return "against its truth; never worse than hard shadows";
+    case Rule::restated:
+      return "against the base scene's truth, with the base scene's error and picture";
     case Rule::same:
       return "against the base scene's truth, with the base scene's error";
     case Rule::own:

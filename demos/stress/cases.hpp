@@ -15,14 +15,19 @@ namespace halfshadow::stress {
 
 /// How a picture is judged. judge.hpp says by which figures.
 enum class Rule {
-  base,    ///< an ordinary scene; its error is what others are compared with
-  same,    ///< the base scene in other words, or with something more that shadows nothing in view: the base's
-           ///< own truth, and an error as there
+  base,      ///< an ordinary scene; its error is what others are compared with
+  restated,  ///< the base scene in other words: the base's own truth, and the very picture of the base scene
+  same,    ///< the base scene and something more that shadows nothing in view, or the base scene cut up: the
+           ///< base's own truth, and an error as there
   own,     ///< another picture: a truth of its own, an error like the base's, never worse than hard shadows
   dark,    ///< no pixel sees the light
   lit,     ///< every pixel sees all of it
   steady,  ///< frames in a row: no pixel jumps by more than its truth and a little
 };
+/// Judged against the base scene's truth.
+inline bool sharesTruth(Rule rule) {
+  return rule == Rule::restated || rule == Rule::same;
+}
 std::string ruleText(Rule rule);
 
 struct Variant {

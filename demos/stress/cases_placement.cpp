@@ -84,13 +84,13 @@ std::vector<Variant> windings(std::uint64_t) {
 
 std::vector<Case> placementCases() {
   return {
-      {"scale", "the figure from 1e-25 to 1e25 times its size", Rule::same, scales},
-      {"shift", "the figure far from the origin, by transforms", Rule::same, shifts},
+      {"scale", "the figure from 1e-25 to 1e25 times its size", Rule::restated, scales},
+      {"shift", "the figure far from the origin, by transforms", Rule::restated, shifts},
       {"baked", "the box far from the origin, by coordinates: their floats are another shape", Rule::own,
        bakedShifts},
-      {"rotation", "scenes turned about random axes", Rule::same, rotations},
-      {"mirror", "meshes mirrored, and mirrored back by their transforms", Rule::same, mirrors},
-      {"order", "objects and triangles in random order; no vertex shared", Rule::same, orders},
+      {"rotation", "scenes turned about random axes", Rule::restated, rotations},
+      {"mirror", "meshes mirrored, and mirrored back by their transforms", Rule::restated, mirrors},
+      {"order", "objects and triangles in random order; no vertex shared", Rule::restated, orders},
       {"split", "each mesh in two objects", Rule::same, splits},
       {"winding", "casters wound inside out, all or every second one", Rule::same, windings},
   };

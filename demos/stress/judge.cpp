@@ -40,6 +40,14 @@ void add(Judgement& judgement, Verdict verdict, const std::string& reason) {
   judgement.reason += (judgement.reason.empty() ? "" : "; ") + reason;
 }
 
+/// At p99.9; 0 when there are none.
+double nearlyLargest(std::vector<double> values) {
+  if (values.empty()) return 0.0;
+  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(values.size() - 1));
+  std::ranges::nth_element(values, values.begin() + static_cast<long>(rank));
+  return values[rank];
+}
+
 double without(double rmse, double noise) {
   return std::sqrt(std::max(rmse * rmse - noise * noise, 0.0));
 }
@@ -124,10 +132,22 @@ double jumpBeyondTruth(const std::vector<std::vector<float>>& pictures,
       jumps.push_back(std::abs(pictures[frame][i] - pictures[frame - 1][i]) - own);
     }
   }
-  if (jumps.empty()) return 0.0;
-  const auto rank = static_cast<std::size_t>(0.999 * static_cast<double>(jumps.size() - 1));
-  std::ranges::nth_element(jumps, jumps.begin() + static_cast<long>(rank));
-  return std::max(jumps[rank], 0.0);
+  return std::max(nearlyLargest(std::move(jumps)), 0.0);
+}
+
+double changeBetween(std::span<const float> picture, std::span<const float> other,
+                     const Yardstick& yardstick) {
+  std::vector<double> changes;
+  for (std::size_t i = 0; i < yardstick.judged.size(); ++i) {
+    if (yardstick.judged[i]) changes.push_back(std::abs(static_cast<double>(picture[i]) - other[i]));
+  }
+  return nearlyLargest(std::move(changes));
+}
+
+Judgement alsoUnchanged(Judgement judgement, double changed) {
+  if (changed > kJump)
+    add(judgement, Verdict::worse, figure("changes by %.3f at p99.9 (at most %.2f)", changed, kJump));
+  return judgement;
 }
 
 const char* verdictText(Verdict verdict) {
@@ -171,9 +191,9 @@ Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Erro
   if (comparable) {
     const auto limit = [&](double factor) {
       const double own = factor * without(base->penumbraRmse, truthNoise);
-      return std::sqrt(own * own + truthNoise * truthNoise) + (rule == Rule::same ? kSlackSame : kSlackOwn);
+      return std::sqrt(own * own + truthNoise * truthNoise) + (sharesTruth(rule) ? kSlackSame : kSlackOwn);
     };
-    const bool another = rule == Rule::same && fellBack.empty() && errors.penumbraRmse > limit(2.0);
+    const bool another = sharesTruth(rule) && fellBack.empty() && errors.penumbraRmse > limit(2.0);
     if (errors.penumbraRmse > limit(1.3))
       add(judgement, another ? Verdict::wrong : more,
           figure("penumbra RMSE %.4f (at most %.4f)", errors.penumbraRmse, limit(1.3)));
@@ -207,9 +227,8 @@ Judgement judgedLit(const Errors& errors) {
 
 Judgement judgedSteady(double jump) {
   Judgement judgement;
-  // Where a hard edge passes, the picture jumps whole; soft ones stay below a sixteenth of the light.
-  if (jump > 0.06)
-    add(judgement, Verdict::worse, figure("jumps by %.3f at p99.9 (at most %.2f)", jump, 0.06));
+  if (jump > kJump)
+    add(judgement, Verdict::worse, figure("jumps by %.3f at p99.9 (at most %.2f)", jump, kJump));
   return judgement;
 }
 

@@ -55,25 +55,34 @@ struct Judgement {
   std::string reason{};
 };
 
-/// `same` and `own`: `base` is the technique's own error in the base scene; `base`: null. `fellBack`: what
-/// the frame's report says of a fall-back, or empty.
+/// `restated`, `same`, `own`: `base` is the technique's own error in the base scene; `base`: null.
+/// `fellBack`: what the frame's report says of a fall-back, or empty.
 ///  - ok: the penumbra RMSE is at most 1.3 × the base's (other edges, in other directions; what the truth's
 ///    noise adds is taken out) plus kSlack; the share of false pixels at most 1.3 × the base's plus 1 in 500
 ///    (single pixels at outlines).
 ///  - worse: more than that; fellBack: more, and the frame's report says why.
 ///  - wrong: errors beyond a pixel are larger than those of exact hard shadows, or false pixels are more than
-///    1.3 × the base's share plus 1 in 100; for `same`, also a penumbra RMSE of more than twice the base's
-///    plus kSlack without a reason: the picture should be the same.
+///    1.3 × the base's share plus 1 in 100; where the truth is shared, also a penumbra RMSE of more than
+///    twice the base's plus kSlack without a reason: the picture should be the same.
 Judgement judged(Rule rule, const Errors& errors, const Errors* base, const Errors& hard, double truthNoise,
                  const std::string& fellBack);
-/// Penumbra RMSE. `same`: two roundings to 8 bits. `own`: the share of pixels where edges meet, or where a
-/// caster touches its receiver, is another.
+/// Penumbra RMSE. Shared truth: two roundings to 8 bits. `own`: the share of pixels where edges meet, or
+/// where a caster touches its receiver, is another.
 inline constexpr double kSlackSame = 0.004, kSlackOwn = 0.012;
 /// Fewer penumbra pixels say little about an RMSE.
 inline constexpr std::size_t kFewestPenumbraPixels = 40;
 
+/// What is left of a picture when its scene is written down in another way: at p99.9 a pixel may change by as
+/// much as one may jump from frame to frame.
+Judgement alsoUnchanged(Judgement judgement, double changed);
+/// Difference at p99.9 of judged pixels.
+double changeBetween(std::span<const float> picture, std::span<const float> other,
+                     const Yardstick& yardstick);
+
 Judgement judgedDark(const Errors& errors);
 Judgement judgedLit(const Errors& errors);
 Judgement judgedSteady(double jump);
+/// Where a hard edge passes, a pixel jumps whole; soft shadows stay below a sixteenth of the light.
+inline constexpr double kJump = 0.06;
 
 }  // namespace halfshadow::stress

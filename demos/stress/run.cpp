@@ -43,8 +43,8 @@ std::string fallBackOf(Engine& engine, const FrameReport& report) {
   return text;
 }
 
-/// Not asked for steady pictures: their edges are as wide as a texel or a kernel, whatever the light, and
-/// jump whole from pixel to pixel.
+/// Not asked for steady or unchanged pictures: their edges are as wide as a texel or a kernel, whatever the
+/// light, and jump whole from pixel to pixel.
 bool hasFixedEdges(const std::string& technique) {
   constexpr const char* kFixed[] = {"hard", "pcf", "pcf-masked", "vsm", "shadow-volume"};
   return std::ranges::find(kFixed, technique) != std::end(kFixed);
@@ -85,7 +85,10 @@ class Runner {
     return variants;
   }
 
-  using ErrorsByTechnique = std::map<std::string, Errors>;
+  struct BaseResult {
+    Errors errors;
+    std::vector<float> picture;
+  };
 
   Result<std::vector<float>> traced(const SceneDescription& scene, const scene::AreaLight& light,
                                     const reference::ReceiverImage& receivers, int samples,
@@ -118,22 +121,26 @@ class Runner {
     return &(bases_[base] = std::move(yardstick).value());
   }
 
-  /// A technique's errors in a base scene, rendered once.
-  Result<const Errors*> baseErrors(const std::string& base, const std::string& technique) {
-    ErrorsByTechnique& known = baseErrors_[base];
+  /// What a technique makes of a base scene, rendered once.
+  Result<const BaseResult*> baseResult(const std::string& base, const std::string& technique) {
+    auto& known = baseResults_[base];
     const auto found = known.find(technique);
     if (found != known.end()) return &found->second;
     auto yardstick = baseYardstick(base);
     if (!yardstick) return yardstick.error();
+    BaseResult result;
     if (technique == kReferenceColumn) {
       auto again = traced(baseScene(base), baseScene(base).lights.front(), (*yardstick)->truth.receivers,
                           options_.samples, 2);
       if (!again) return again.error();
-      return &(known[technique] = errorsOf(*again, **yardstick));
+      result.picture = std::move(again).value();
+    } else {
+      auto pictures = render(technique, baseScene(base), {});
+      if (!pictures) return pictures.error();
+      result.picture = std::move(pictures->front().visibility);
     }
-    auto pictures = render(technique, baseScene(base), {});
-    if (!pictures) return pictures.error();
-    return &(known[technique] = errorsOf(pictures->front().visibility, **yardstick));
+    result.errors = errorsOf(result.picture, **yardstick);
+    return &(known[technique] = std::move(result));
   }
 
   /// One picture a light; the scene's own light when there are none. The engine is new.
@@ -163,7 +170,7 @@ class Runner {
   }
 
   Status judgeVariant(const Case& asked, const Variant& variant, CaseResult& result) {
-    const bool shared = asked.rule == Rule::same;
+    const bool shared = sharesTruth(asked.rule);
     Yardstick own;
     const Yardstick* yardstick = &own;
     if (shared) {
@@ -219,15 +226,19 @@ class Runner {
         judgedHere.judgement =
             asked.rule == Rule::dark ? judgedDark(judgedHere.errors) : judgedLit(judgedHere.errors);
       } else {
-        const Errors* base = nullptr;
+        const BaseResult* base = nullptr;
         if (asked.rule != Rule::base) {
-          auto found = baseErrors(variant.base, cell.technique);
+          auto found = baseResult(variant.base, cell.technique);
           if (!found) return found.error();
           base = *found;
-          judgedHere.base = *base;
+          judgedHere.base = base->errors;
         }
-        judgedHere.judgement =
-            judged(asked.rule, judgedHere.errors, base, hard, noiseOf(*yardstick), judgedHere.fellBack);
+        judgedHere.judgement = judged(asked.rule, judgedHere.errors, base ? &base->errors : nullptr, hard,
+                                      noiseOf(*yardstick), judgedHere.fellBack);
+        if (asked.rule == Rule::restated && !hasFixedEdges(cell.technique)) {
+          judgedHere.changed = changeBetween(picture, base->picture, *yardstick);
+          judgedHere.judgement = alsoUnchanged(std::move(judgedHere.judgement), judgedHere.changed);
+        }
       }
       if (Status s = dump(asked, variant, cell.technique, judgedHere, *yardstick, picture); !s) return s;
       cell.variants.push_back(std::move(judgedHere));
@@ -299,7 +310,7 @@ class Runner {
   const std::vector<std::string>& techniques_;
   const Options& options_;
   std::map<std::string, Yardstick> bases_;
-  std::map<std::string, ErrorsByTechnique> baseErrors_;
+  std::map<std::string, std::map<std::string, BaseResult>> baseResults_;
 };
 }  // namespace
 

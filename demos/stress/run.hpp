@@ -33,6 +33,7 @@ struct VariantResult {
   Judgement judgement;
   Errors errors, base, hard;  ///< `base`: as far as the rule compares with one
   double jump = 0.0;          ///< steady: see jumpBeyondTruth
+  double changed = 0.0;       ///< restated: see changeBetween
   std::string fellBack;       ///< what the frame's report says
 };
 

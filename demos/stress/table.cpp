@@ -25,7 +25,8 @@ Json toJson(const VariantResult& result, Rule rule) {
   if (!result.fellBack.empty()) json["fell_back"] = result.fellBack;
   if (result.judgement.verdict == Verdict::refused) return json;
   json["error"] = toJson(result.errors);
-  if (rule == Rule::same || rule == Rule::own) json["error_base_scene"] = toJson(result.base);
+  if (sharesTruth(rule) || rule == Rule::own) json["error_base_scene"] = toJson(result.base);
+  if (rule == Rule::restated) json["change_p999"] = result.changed;
   if (rule == Rule::steady) {
     json["jump_beyond_truth_p999"] = result.jump;
   } else {

@@ -44,7 +44,7 @@ TEST(StressCases, AreCompleteAndReproducible) {
       EXPECT_TRUE(scene::checkCamera(*v.scene.camera).ok()) << c.name << " " << v.name;
       ASSERT_EQ(v.scene.lights.size(), 1u);
       EXPECT_EQ(c.rule == Rule::steady, !v.frames.empty());
-      if (c.rule == Rule::same || c.rule == Rule::own) {
+      if (sharesTruth(c.rule) || c.rule == Rule::own) {
         EXPECT_FALSE(baseScene(v.base).objects.empty()) << c.name << " " << v.name;
       }
     }
@@ -72,7 +72,7 @@ TEST(StressCases, RayTracerPassesThemAll) {
   std::printf("seed %llu\n", static_cast<unsigned long long>(options.seed));
   std::vector<Case> asked;
   for (const Case& c : cases()) {
-    if (c.rule == Rule::same || c.rule == Rule::dark || c.rule == Rule::lit) asked.push_back(c);
+    if (sharesTruth(c.rule) || c.rule == Rule::dark || c.rule == Rule::lit) asked.push_back(c);
   }
   const auto table = run(**session, asked, {}, options);
   ASSERT_TRUE(table) << table.error().message;

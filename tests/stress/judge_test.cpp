@@ -109,6 +109,16 @@ TEST(StressJudge, ClosedForms) {
   EXPECT_EQ(judgedLit(errorsOf(ramp(12), truth)).verdict, Verdict::wrong);
 }
 
+TEST(StressJudge, AChangedPictureIsWorseThoughItsErrorIsTheSame) {
+  const Yardstick truth = yardstick();
+  const std::vector<float> left = ramp(12, 28), right = ramp(12, 32);
+  EXPECT_NEAR(errorsOf(left, truth).penumbraRmse, errorsOf(right, truth).penumbraRmse, 0.01);
+  EXPECT_EQ(changeBetween(left, left, truth), 0.0);
+  EXPECT_NEAR(changeBetween(left, right, truth), 4.0 / 12.0, 1e-3);
+  EXPECT_EQ(alsoUnchanged({}, 0.05).verdict, Verdict::ok);
+  EXPECT_EQ(alsoUnchanged({}, 4.0 / 12.0).verdict, Verdict::worse);
+}
+
 TEST(StressJudge, JumpsAreCountedBeyondTheTruths) {
   std::vector<Yardstick> truths;
   std::vector<std::vector<float>> following, lagging;
