@@ -3,8 +3,8 @@
 # Copyright (c) 2026 The Halfshadow authors
 #
 # Installs what is missing (Debian 12, as root or with sudo), builds the command line tool, renders three scenes
-# with every technique, measures them against ray-traced visibility, repeats the papers' own comparisons, and
-# writes out/report.html and its images.
+# with every technique, measures them against ray-traced visibility, repeats the papers' own comparisons,
+# judges the techniques in scenes that break soft shadows, and writes out/report.html and its images.
 #
 #   demos/run.sh [OUTPUT FOLDER]        default: out/ beside this checkout's README
 set -euo pipefail
@@ -27,5 +27,5 @@ model=$root/../shared/scenes/CesiumMan.glb
 if [[ -f $model ]]; then scenes+=("$model"); else scenes+=(builtin:mannequin); fi
 scenes+=(builtin:figure builtin:spheres27)
 
-"$build/bin/halfshadow" report "${scenes[@]}" --papers -o "$out"
+"$build/bin/halfshadow" report "${scenes[@]}" --papers --stress -o "$out"
 echo "Open $out/report.html in a browser."

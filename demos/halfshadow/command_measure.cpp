@@ -34,7 +34,7 @@ void printTable(const std::vector<measure::TechniqueMeasurement>& techniques) {
   TextTable table{.header = {"technique", "penumbra rmse", "p99", "max", "receiver mae", "taps/px", "ms",
                              "ms static", "passes", "FBO switches", "MiB"}};
   for (const measure::TechniqueMeasurement& t : techniques) {
-    if (!t.supported) continue;
+    if (!t.measured()) continue;
     const bool timed = t.time.frames > 0;
     table.rows.push_back({t.id, fixedText(t.error.penumbra.rmse, 4), fixedText(t.error.penumbra.p99, 3),
                           fixedText(t.error.penumbra.max, 3), fixedText(t.error.receiver.mae, 5),
@@ -45,7 +45,7 @@ void printTable(const std::vector<measure::TechniqueMeasurement>& techniques) {
   }
   print(table);
   for (const measure::TechniqueMeasurement& t : techniques) {
-    if (!t.supported) std::printf("%s: not supported here: %s\n", t.id.c_str(), t.unsupportedReason.c_str());
+    if (!t.measured()) std::printf("%s: %s\n", t.id.c_str(), t.absence().c_str());
   }
 }
 
@@ -109,7 +109,17 @@ ExitStatus measureScene(const Arguments& arguments) {
     printHeading(*scene, driver, *truth);
     printTable(*techniques);
   }
+  if (!printsText(arguments.json)) {
+    for (const measure::TechniqueMeasurement& t : *techniques) {
+      if (!t.failure.empty()) say(t.id + ": " + t.absence());
+    }
+  }
+  // One that fails leaves the others' figures; where none is measured, nothing was done.
   ExitStatus status = kDone;
+  if (std::ranges::none_of(*techniques, &measure::TechniqueMeasurement::measured)) {
+    say("no technique could draw the scene");
+    status = kFailed;
+  }
   for (const measure::TechniqueMeasurement& technique : *techniques) {
     if (technique.supported ||
         std::ranges::find(arguments.techniques, technique.id) == arguments.techniques.end()) {

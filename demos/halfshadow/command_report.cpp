@@ -12,6 +12,8 @@
 #include "papers/papers.hpp"
 #include "report/report.hpp"
 #include "report/scene_pictures.hpp"
+#include "stress/section.hpp"
+#include "stress/table.hpp"
 
 namespace halfshadow::cli {
 namespace {
@@ -22,7 +24,7 @@ struct Arguments {
   DriverArguments driver;
   SettingArguments settings;
   std::string folder;
-  bool papers = false;
+  bool papers = false, stress = false;
   int samples = 1024, frames = 5;
 };
 
@@ -56,9 +58,9 @@ Result<report::SceneReport> reportScene(measure::EngineSession& session, const s
     auto measured = measure::measureTechnique(session, *scene, result.truth, {id, settings},
                                               {.timingFrames = arguments.frames});
     if (!measured) return measured.error();
-    const bool supported = measured->supported;
+    const bool drawn = measured->measured();
     result.techniques.push_back(std::move(*measured));
-    if (!supported) continue;
+    if (!drawn) continue;
     auto shaded =
         report::renderShaded(session, *scene, {id, settings}, arguments.size.width, arguments.size.height);
     if (!shaded) return shaded.error();
@@ -68,7 +70,7 @@ Result<report::SceneReport> reportScene(measure::EngineSession& session, const s
     }
     // The page shows the scene once, under its best shadows.
     const auto better = [](const measure::TechniqueMeasurement& a, const measure::TechniqueMeasurement& b) {
-      return a.supported && (!b.supported || a.error.penumbra.rmse < b.error.penumbra.rmse);
+      return a.measured() && (!b.measured() || a.error.penumbra.rmse < b.error.penumbra.rmse);
     };
     if (std::ranges::min_element(result.techniques, better)->id == id) {
       result.shaded = std::move(*shaded);
@@ -81,11 +83,11 @@ Result<report::SceneReport> reportScene(measure::EngineSession& session, const s
 void printScene(const report::SceneReport& scene) {
   std::printf("%s\n", scene.title.c_str());
   for (const measure::TechniqueMeasurement& t : scene.techniques) {
-    if (t.supported) {
+    if (t.measured()) {
       std::printf("  %-14s penumbra RMSE %.4f  receiver MAE %.4f  %8.2f ms\n", t.id.c_str(),
                   t.error.penumbra.rmse, t.error.receiver.mae, t.time.medianMs);
     } else {
-      std::printf("  %-14s not supported here: %s\n", t.id.c_str(), t.unsupportedReason.c_str());
+      std::printf("  %-14s %s\n", t.id.c_str(), t.absence().c_str());
     }
   }
   std::fflush(stdout);
@@ -121,9 +123,30 @@ Status addPapers(measure::EngineSession& session, const Arguments& arguments, re
   return measure::writeTextFile(path, json.dump(2) + "\n");
 }
 
+/// Small pictures of few scenes a case: half a minute where the whole table takes minutes.
+Status addStress(measure::EngineSession& session, const std::vector<std::string>& ids,
+                 const Arguments& arguments, report::Report& document) {
+  ProgressLine progress;
+  const stress::Options options{.width = 96,
+                                .height = 72,
+                                .samples = 144,
+                                .variantsPerCase = 1,
+                                .settings = settingsOf(arguments.settings),
+                                .progress = [&](const std::string& stage, double share) {
+                                  progress.update("stress: " + stage, share);
+                                }};
+  std::vector<std::string> shadowing = stress::shadowTechniques(session);
+  std::erase_if(shadowing, [&](const std::string& id) { return std::ranges::find(ids, id) == ids.end(); });
+  auto table = stress::run(session, stress::cases(), shadowing, options);
+  if (!table) return table.error();
+  document.sections.push_back(stress::section(*table, options));
+  std::printf("stress: %s\n", stress::countsText(*table).c_str());
+  return {};
+}
+
 ExitStatus makeReport(const Arguments& arguments) {
-  if (arguments.scenes.empty() && !arguments.papers) {
-    say("report: there is nothing to show; give scenes, --papers or both");
+  if (arguments.scenes.empty() && !arguments.papers && !arguments.stress) {
+    say("report: there is nothing to show; give scenes, --papers, --stress or several of them");
     return kBadUsage;
   }
   auto session = openSession(arguments.driver);
@@ -156,6 +179,9 @@ ExitStatus makeReport(const Arguments& arguments) {
   if (arguments.papers) {
     if (Status status = addPapers(**session, arguments, document); !status) return fail(status.error());
   }
+  if (arguments.stress) {
+    if (Status status = addStress(**session, *ids, arguments, document); !status) return fail(status.error());
+  }
   if (Status status = report::writeReport(page, document); !status) return fail(status.error());
   std::printf("wrote %s\n", page.c_str());
   return kDone;
@@ -170,6 +196,10 @@ void addReportCommand(CLI::App& app, ExitStatus& status) {
   command->add_flag("--papers", arguments->papers,
                     "also repeat the comparisons of the papers that the techniques come from, over built-in "
                     "scenes and the first file given; numbers go to papers.json");
+  command->add_flag(
+      "--stress", arguments->stress,
+      "also show verdicts on scenes that break soft shadows, one scene a case (all: `halfshadow "
+      "stress`)");
   command->add_option("-o,--output", arguments->folder, "folder for report.html and the shaded images")
       ->required();
   command

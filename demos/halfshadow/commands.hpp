@@ -19,6 +19,7 @@ void addMeasureCommand(CLI::App& app, ExitStatus& status);
 void addReportCommand(CLI::App& app, ExitStatus& status);
 void addProfileCommand(CLI::App& app, ExitStatus& status);
 void addCompareCommand(CLI::App& app, ExitStatus& status);
+void addStressCommand(CLI::App& app, ExitStatus& status);
 void addValidateCommand(CLI::App& app, ExitStatus& status);
 
 }  // namespace halfshadow::cli

@@ -37,6 +37,7 @@ int run(int argc, char** argv) {
   addReportCommand(app, status);
   addProfileCommand(app, status);
   addCompareCommand(app, status);
+  addStressCommand(app, status);
   addValidateCommand(app, status);
   try {
     app.parse(argc, argv);

@@ -94,7 +94,7 @@ Status dumpMeasurement(const std::filesystem::path& folder, const scene::SceneDe
   if (Status s = images::writeExr(folder / "reference.exr", visibilityImage(truth, truth.visibility)); !s)
     return s;
   for (const TechniqueMeasurement& technique : techniques) {
-    if (!technique.supported) continue;
+    if (!technique.measured()) continue;
     const Status s =
         images::writeExr(folder / (technique.id + ".exr"), visibilityImage(truth, technique.visibility));
     if (!s) return s;

@@ -146,6 +146,11 @@ Status measureOn(Rig& rig, const Truth& truth, const MeasureOptions& options, Ou
 }
 }  // namespace
 
+std::string TechniqueMeasurement::absence() const {
+  if (!supported) return "not supported here: " + unsupportedReason;
+  return failure.empty() ? "" : "failed: " + failure;
+}
+
 Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scene::SceneDescription& scene,
                                               const Truth& truth, const Configuration& configuration,
                                               const MeasureOptions& options) {
@@ -161,12 +166,17 @@ Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scen
     return result;
   }
   if (Status status = session.choose(result.id, {}); !status) return status.error();
-  if (Status status = session.load(scene); !status) return status.error();
   const Output output = visibilityOutputOf(result.id);
   Rig rig(session, scene, truth, output);
   if (options.progress) options.progress(result.id, 0.0);
-  if (Status status = measureOn(rig, truth, options, output, result); !status) {
-    return Error{status.error().code, result.id + ": " + status.error().message};
+  Status status = session.load(scene);
+  if (status) status = measureOn(rig, truth, options, output, result);
+  if (!status) {
+    if (status.error().code == ErrorCode::contextLost) return status.error();
+    // Others may do what this one cannot.
+    TechniqueMeasurement failed{.id = result.id, .failure = status.error().message};
+    failed.settings = std::move(result.settings);
+    return failed;
   }
   if (options.progress) options.progress(result.id, 1.0);
   return result;

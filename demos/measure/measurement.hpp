@@ -87,6 +87,10 @@ struct TechniqueMeasurement {
   std::string id;
   bool supported = true;
   std::string unsupportedReason;
+  std::string failure;  ///< why the engine refused the scene or a frame; the rest is then empty
+  bool measured() const { return supported && failure.empty(); }
+  /// "not supported here: …" or "failed: …"; empty when measured.
+  std::string absence() const;
   std::vector<Setting> settings;  ///< effective: `<id>.*`, map_size, bias
   ErrorSet error;                 ///< against the truth, all receivers
   ErrorSet errorOnGround, errorOnCasters;
@@ -100,11 +104,12 @@ struct TechniqueMeasurement {
   std::vector<PassMeasurement> passes;  ///< of one dynamic frame with per-pass timing
   std::vector<SkipMeasurement> skipped;
   std::string planText;
-  std::vector<float> visibility;  ///< width × height; empty when unsupported
+  std::vector<float> visibility;  ///< width × height; empty unless measured
 };
 
 /// Measures one configuration on a renewed engine. An unsupported technique is a result (supported = false
-/// with the reason). Errors: unknownTechnique, unknownSetting, invalidArgument, and those of Engine::render.
+/// with the reason), and so is one that cannot draw the scene (`failure`). Errors: unknownTechnique,
+/// unknownSetting, invalidArgument, contextLost.
 Result<TechniqueMeasurement> measureTechnique(EngineSession& session, const scene::SceneDescription& scene,
                                               const Truth& truth, const Configuration& configuration,
                                               const MeasureOptions& options);

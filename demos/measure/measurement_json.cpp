@@ -73,6 +73,10 @@ Json toJson(const TechniqueMeasurement& measurement) {
     json["reason"] = measurement.unsupportedReason;
     return json;
   }
+  if (!measurement.measured()) {
+    json["failed"] = measurement.failure;
+    return json;
+  }
   json["error"] = toJson(measurement.error);
   json["error_by_kind"] = {{"ground", toJson(measurement.errorOnGround)},
                            {"caster", toJson(measurement.errorOnCasters)}};

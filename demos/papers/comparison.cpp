@@ -66,6 +66,8 @@ Result<Comparison> compare(measure::EngineSession& session, const std::string& s
     auto measured =
         measure::measureTechnique(session, *scene, result.truth, variant.configuration, {.timingFrames = 0});
     if (!measured) return measured.error();
+    if (!measured->measured())
+      return Error{ErrorCode::driverFault, source + ": " + variant.label + ": " + measured->absence()};
     configurations.push_back(variant.configuration);
     result.variants.push_back({variant, std::move(*measured), {}});
   }

@@ -65,13 +65,13 @@ std::string overview(const Report& report) {
     std::vector<Cell> row{{escaped(name)}};
     for (std::size_t s = 0; s < report.scenes.size(); ++s) {
       const auto found = byName[name].find(s);
-      if (found == byName[name].end() || !found->second->supported) {
+      if (found == byName[name].end() || !found->second->measured()) {
         row.push_back({"–"});
         continue;
       }
       double best = 2.0;
       for (const auto& other : report.scenes[s].techniques) {
-        if (other.supported) best = std::min(best, other.error.penumbra.rmse);
+        if (other.measured()) best = std::min(best, other.error.penumbra.rmse);
       }
       const double rmse = found->second->error.penumbra.rmse;
       const measure::TimeStatistics& time = found->second->time;

@@ -66,7 +66,7 @@ Result<std::string> techniqueCard(const SceneReport& scene, const TechniqueMeasu
 std::string numbersTable(const SceneReport& scene, const std::vector<std::string>& names) {
   double bestRmse = std::numeric_limits<double>::infinity();
   for (const TechniqueMeasurement& t : scene.techniques) {
-    if (t.supported) bestRmse = std::min(bestRmse, t.error.penumbra.rmse);
+    if (t.measured()) bestRmse = std::min(bestRmse, t.error.penumbra.rmse);
   }
   std::string html =
       "<div class=\"card scroll\"><table><thead>\n<tr class=\"groups\"><th></th><th colspan=\"3\">penumbra "
@@ -92,11 +92,9 @@ std::string numbersTable(const SceneReport& scene, const std::vector<std::string
           "</thead><tbody>\n";
   for (std::size_t i = 0; i < scene.techniques.size(); ++i) {
     const TechniqueMeasurement& t = scene.techniques[i];
-    if (!t.supported) {
-      html +=
-          "<tr><td>" + escaped(names[i]) +
-          "</td><td class=\"text soft\" colspan=\"13\">not supported here: " + escaped(t.unsupportedReason) +
-          "</td></tr>\n";
+    if (!t.measured()) {
+      html += "<tr><td>" + escaped(names[i]) + "</td><td class=\"text soft\" colspan=\"13\">" +
+              escaped(t.absence()) + "</td></tr>\n";
       continue;
     }
     const auto& penumbra = t.error.penumbra;
@@ -127,7 +125,7 @@ std::string plot(const SceneReport& scene, const std::vector<std::string>& names
   std::vector<ScatterPoint> points;
   for (std::size_t i = 0; i < scene.techniques.size(); ++i) {
     const TechniqueMeasurement& t = scene.techniques[i];
-    if (t.supported && t.time.frames > 0)
+    if (t.measured() && t.time.frames > 0)
       points.push_back({names[i], t.time.medianMs, t.error.penumbra.rmse});
   }
   const std::string svg = scatterSvg(points, {"time of a dynamic frame, ms (log)", "penumbra RMSE (log)"});
@@ -154,7 +152,7 @@ std::string passes(const SceneReport& scene, const std::vector<std::string>& nam
   std::string html = "<h3>Passes and what was left out</h3>\n<div class=\"card\">\n";
   for (std::size_t i = 0; i < scene.techniques.size(); ++i) {
     const TechniqueMeasurement& t = scene.techniques[i];
-    if (!t.supported) continue;
+    if (!t.measured()) continue;
     html += "<details><summary>" + escaped(names[i]) + " · " + counted(t.passes.size()) +
             (t.passes.size() == 1 ? " pass" : " passes") + ", " + counted(t.counters.draws) + " draws, " +
             counted(t.counters.triangles) + " triangles</summary>\n<div class=\"scroll\"><table><thead>" +
@@ -228,7 +226,7 @@ Result<std::string> sceneSection(const SceneReport& scene, const std::string& an
   html += errorLegend();
   html += "<div class=\"grid\">\n";
   for (std::size_t i = 0; i < scene.techniques.size(); ++i) {
-    if (!scene.techniques[i].supported) continue;
+    if (!scene.techniques[i].measured()) continue;
     auto card = techniqueCard(scene, scene.techniques[i], names[i]);
     if (!card) return card.error();
     html += *card;

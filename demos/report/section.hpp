@@ -33,7 +33,7 @@ std::string plotHtml(const std::string& svg, const std::string& note);
 /// One picture beside the truth.
 struct ComparedPicture {
   std::string title;
-  const measure::TechniqueMeasurement* measurement = nullptr;  ///< supported
+  const measure::TechniqueMeasurement* measurement = nullptr;  ///< measured
   std::string numbers{};                                       ///< below the pictures
 };
 /// A row of cards: the truth, then each technique's visibility above its error map. Errors: invalidArgument

@@ -15,7 +15,7 @@ TEST_F(CliTest, HelpIsNotAnError) {
   const ProcessResult top = run({"--help"});
   EXPECT_EQ(top.status, 0);
   for (const char* command :
-       {"info", "techniques", "scenes", "render", "reference", "measure", "compare", "validate"}) {
+       {"info", "techniques", "scenes", "render", "reference", "measure", "compare", "validate", "stress"}) {
     EXPECT_NE(top.output.find(command), std::string::npos) << command;
     const ProcessResult help = run({command, "--help"});
     EXPECT_EQ(help.status, 0) << command;

@@ -22,7 +22,8 @@ void PrintTo(const Cost& cost, std::ostream* stream) {
 
 // Depth map 1; block bounds one pass per factor of four or two (4 for a kernel, 16 or 32 for this light's
 // penumbra) and one that dilates; occupancy and pyramid 2; the mip chain's edge mask 2; moments 1 and their
-// blur 2.
+// blur 2. Four slices in pairs, fine and kept, and eight levels and an N-buffer for each of the two textures.
+// Coverage, seeds, six floods from 32 texels to 1, six boxes and their atlas, and the map of widths.
 const std::vector<Cost> kCosts = {
     {{"none"}, 0},
     {{"hard"}, 1},
@@ -34,6 +35,9 @@ const std::vector<Cost> kCosts = {
     {{"pcss"}, 1 + 4},
     {{"pcss-mip"}, 1 + 4 + 2},
     {{"pcf-quantized"}, 1 + 4 + 2},
+    {{"occlusion-textures"}, 2 + 2 + 2 * (8 + 1)},
+    {{"shadow-width"}, 1 + 2 + 6 + 7 + 1},
+    {{"shadow-volume"}, 0, 1},
     {{"wedges-cells"}, 0},
     {{"wedges-blended"}, 0},
     // Receivers' depth and sums; receivers that carry the silhouettes test a depth buffer of their own.
@@ -129,6 +133,15 @@ INSTANTIATE_TEST_SUITE_P(Techniques, Counters, testing::ValuesIn(kCosts), [](con
   return name;
 });
 
+TEST_F(FrameReports, EveryTechniqueHasItsCostsWrittenDown) {
+  for (const std::string& id :
+       techniquesBut(renderer().engine(), {{"sampled", "it draws 64 maps each frame and keeps none"}})) {
+    EXPECT_TRUE(
+        std::ranges::any_of(kCosts, [&](const Cost& cost) { return cost.configuration.technique == id; }))
+        << id << ": add its passes to kCosts";
+  }
+}
+
 TEST_F(FrameReports, HardFetchesOnceBehindCastersAndNeverMore) {
   const std::string scene = "figure@light=0.3";
   renderer().load(builtinScene(scene));
@@ -164,7 +177,8 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene::SceneDescription scene = PlateOverGround().scene();
   scene.lights.front().intensity = 0.0;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
+  const std::vector<std::string> techniques = techniquesBut(renderer().engine(), {});
+  for (const std::string& technique : techniques) {
     const Image dark = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(dark.rgba, 255), static_cast<std::ptrdiff_t>(dark.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "light-off")) << technique;
@@ -173,7 +187,7 @@ TEST_F(FrameReports, LightOffAndSceneWithoutCastersAreLit) {
   scene.lights.front().intensity = 1.0;
   scene.objects.front().casts = false;
   renderer().load(scene);
-  for (const char* technique : {"hard", "pcss-mip", "sampled", "shadow-volume"}) {
+  for (const std::string& technique : techniques) {
     const Image lit = renderer().render(Configuration{technique});
     EXPECT_EQ(std::ranges::count(lit.rgba, 255), static_cast<std::ptrdiff_t>(lit.rgba.size())) << technique;
     EXPECT_TRUE(renderer().report().hasSkip("light 0", "no-casters")) << technique;

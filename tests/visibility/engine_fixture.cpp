@@ -222,6 +222,20 @@ Image SceneRenderer::render(Output output) {
   return image;
 }
 
+std::vector<std::string> techniquesBut(Engine& engine, const std::vector<OptOut>& optOuts) {
+  std::vector<std::string> ids;
+  std::size_t leftOut = 0;
+  for (std::size_t i = 0; i < engine.techniqueCount(); ++i) {
+    const TechniqueRecord record = engine.technique(i);
+    const bool named =
+        std::ranges::any_of(optOuts, [&](const OptOut& o) { return o.id == std::string(record.id); });
+    leftOut += named;
+    if (!named && record.supported) ids.emplace_back(record.id);
+  }
+  EXPECT_EQ(leftOut, optOuts.size()) << "an opt-out names no technique";
+  return ids;
+}
+
 void EngineTest::SetUp() {
   ASSERT_NE(headless(), nullptr) << contextFailure();
 }

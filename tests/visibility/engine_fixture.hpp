@@ -113,6 +113,15 @@ class SceneRenderer {
 
 Report reportOf(const FrameReport& report);
 
+/// A technique that a test leaves out, and why.
+struct OptOut {
+  const char* id;
+  const char* reason;
+};
+/// All techniques of the engine that this device supports, in its order, without those named. A new technique
+/// is tested without being asked; an opt-out that names none is a test failure.
+std::vector<std::string> techniquesBut(Engine& engine, const std::vector<OptOut>& optOuts);
+
 /// Fails when the driver is missing; after each test the context has no OpenGL ES error.
 class EngineTest : public testing::Test {
  protected:

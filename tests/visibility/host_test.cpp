@@ -72,8 +72,7 @@ std::unique_ptr<SceneRenderer> countedRenderer() {
   return std::make_unique<SceneRenderer>(std::move(engine));
 }
 
-const std::vector<std::string> kTechniques = {"none", "hard",     "pcf",     "pcf-masked",   "pcf-quantized",
-                                              "pcss", "pcss-mip", "sampled", "shadow-volume"};
+const std::vector<OptOut> kNoOptOuts;
 
 /// A host's framebuffer: RGBA8 and 16-bit depth, filled with one colour.
 class HostFramebuffer {
@@ -132,7 +131,7 @@ class Host : public EngineTest {
 TEST_F(Host, FramebufferIsUntouchedOutsideTheRectangleAndHoldsTheImageInside) {
   SceneRenderer renderer(makeEngine());
   renderer.load(builtinScene("figure@light=1"));
-  for (const std::string& technique : kTechniques) {
+  for (const std::string& technique : techniquesBut(renderer.engine(), kNoOptOuts)) {
     const Image expected = renderer.render(Configuration{technique});
     const HostFramebuffer target;
     RenderDesc desc = renderer.desc();
@@ -193,10 +192,11 @@ TEST_F(Host, StateSurvivesEveryCall) {
     expectState(hostile, "Engine::create");
     renderer.load(PlateOverGround().scene());
     expectState(hostile, "addObject, setLights");
-    for (const std::string& technique : kTechniques) {
+    for (const std::string& technique : techniquesBut(renderer.engine(), kNoOptOuts)) {
       const Image image = renderer.render(Configuration{technique});
       expectState(hostile, technique);
-      const bool shadowed = std::ranges::count(image.rgba, 0) > 1000;
+      // vsm's bound stays above 0 where the depths behind the plate vary at all.
+      const bool shadowed = std::ranges::count_if(image.rgba, [](std::uint8_t v) { return v <= 8; }) > 1000;
       EXPECT_EQ(shadowed, technique != "none") << technique << " under the host's state";
     }
   }
@@ -209,7 +209,8 @@ TEST_F(Host, EveryObjectIsDeleted) {
   auto renderer = countedRenderer();
   const int before = renderer->engine().liveObjectCount();
   renderer->load(builtinScene("figure@light=1"));
-  for (const std::string& technique : kTechniques) renderer->render(Configuration{technique});
+  for (const std::string& technique : techniquesBut(renderer->engine(), kNoOptOuts))
+    renderer->render(Configuration{technique});
   EXPECT_GT(renderer->engine().liveObjectCount(), before);
   renderer.reset();
   for (const char* kind : {"Textures", "Buffers", "Framebuffers", "Renderbuffers"}) {
@@ -223,7 +224,8 @@ TEST_F(Host, EveryObjectIsDeleted) {
 TEST_F(Host, LostContextIsNotCalled) {
   auto renderer = countedRenderer();
   renderer->load(PlateOverGround().scene());
-  for (const std::string& technique : kTechniques) renderer->render(Configuration{technique});
+  for (const std::string& technique : techniquesBut(renderer->engine(), kNoOptOuts))
+    renderer->render(Configuration{technique});
   renderer->engine().contextLost();
   const auto atLoss = calls();
   FrameReport report;

@@ -35,6 +35,17 @@ bool byReceivers(const Configuration& configuration) {
   return configuration.settings.front().value != "screen";
 }
 
+/// What was measured when the tests were written, rounded up: no promises, but a change that exceeds one
+/// wants a reason.
+struct FiguresOfRecord {
+  /// One convex caster: .0029 on llvmpipe and, by receivers, on ANGLE; depth there is that of vertices
+  /// snapped to a sixteenth of a pixel.
+  double oneConvexCaster = 0.004, oneConvexCasterOnAngle = 0.0045;
+  /// 81 casters side by side: .0040 everywhere with highp.
+  double sumsOfManyPieces = 0.0045, sumsOfManyPiecesWithoutHighp = 0.03;
+};
+constexpr FiguresOfRecord kFiguresOfRecord;
+
 class WedgesAccuracy : public SharedEngineTest {
  protected:
   static double penumbraError(const Configuration& configuration, const std::string& name) {
@@ -90,13 +101,13 @@ TEST_F(WedgesAccuracy, ReachesTheProjectsFigures) {
   }
 }
 
-// One convex caster: nothing is combined, and a small light sees its centre's silhouette nearly. .0029
-// measured on llvmpipe and, by receivers, on ANGLE; depth there is that of vertices snapped to a sixteenth of
-// a pixel.
+// One convex caster: nothing is combined, and a small light sees its centre's silhouette nearly.
 TEST_F(WedgesAccuracy, OneConvexCasterIsExact) {
   if (isForcedOff("highp")) GTEST_SKIP() << "highp is forced off: positions have 11 bits";
   for (const Configuration& tested : kAll)
-    EXPECT_LE(penumbraError(tested, "box@light=0.3"), onAngle() && !byReceivers(tested) ? 0.0045 : 0.004)
+    EXPECT_LE(penumbraError(tested, "box@light=0.3"), onAngle() && !byReceivers(tested)
+                                                          ? kFiguresOfRecord.oneConvexCasterOnAngle
+                                                          : kFiguresOfRecord.oneConvexCaster)
         << tested.text();
 }
 
@@ -149,7 +160,7 @@ TEST_F(WedgesAccuracy, CombinesCastersByItsRuleAlone) {
 }
 
 // 81 casters side by side, five pieces each: sums of many terms, some of them negative. Rasterisers that keep
-// fractions of a byte while they blend must not make one of them. .0040 measured everywhere.
+// fractions of a byte while they blend must not make one of them.
 TEST_F(WedgesAccuracy, SumsOfManyPiecesAreWhole) {
   const Truth& truth = truthOf("spheres81@light=1");
   std::vector<std::uint8_t> judged = truth.penumbraOnGround();
@@ -159,7 +170,9 @@ TEST_F(WedgesAccuracy, SumsOfManyPiecesAreWhole) {
     const std::vector<float> visibility = renderer().render(by(route).additive).visibility();
     const double error = metrics::errorStatistics(visibility, truth.visibility, judged).rmse;
     std::printf("spheres81 %s: %.4f\n", route, error);
-    EXPECT_LE(error, isForcedOff("highp") ? 0.03 : 0.0045) << route;
+    EXPECT_LE(error, isForcedOff("highp") ? kFiguresOfRecord.sumsOfManyPiecesWithoutHighp
+                                          : kFiguresOfRecord.sumsOfManyPieces)
+        << route;
   }
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <ostream>
+#include <map>
 
 #include "engine_fixture.hpp"
 #include "reference/reference.hpp"
@@ -19,31 +19,31 @@ constexpr double kJump = 0.05;
 /// Twice the noise of a difference of two visibilities of 1024 strata each, rounded to 8 bits.
 constexpr double kNoise = 0.01;
 
-struct Family {
-  const char* id;
-  double jump;  ///< beyond the truth's own
-};
-void PrintTo(const Family& family, std::ostream* stream) {
-  *stream << family.id;
-}
-// The box of this caster shows or hides a side of .8 to the light's centre between two frames; to the corners
-// of the light, 6 degrees away, it is .08 wide, a sixth of the penumbra, and the silhouette jumps across it
-// (measured: .11 and .086 in one frame of 200). Four sub-lights jump one after the other.
-const Family kFamilies[] = {
-    {"wedges", 0.12}, {"wedges-probabilistic", 0.1}, {"wedges-blended", kJump}, {"wedges-cells", kJump}};
+/// Techniques that are promised to stay within kJump.
+const std::vector<std::string> kSteady = {"wedges-blended", "wedges-cells"};
 
-class WedgesFlicker : public SharedEngineTest, public testing::WithParamInterface<Family> {};
+/// What was measured when the test was written, rounded up: no promise. The box of this caster shows or hides
+/// a side of .8 to the light's centre between two frames; to the corners of the light, 6 degrees away, it is
+/// .08 wide, a sixth of the penumbra, and the silhouette jumps across it (.11 and .086 in one frame of 200).
+/// Four sub-lights jump one after the other.
+const std::map<std::string, double> kFiguresOfRecord = {{"wedges", 0.12}, {"wedges-probabilistic", 0.1}};
+
+double boundOf(const std::string& id) {
+  return std::ranges::find(kSteady, id) != kSteady.end() ? kJump : kFiguresOfRecord.at(id);
+}
+
+class WedgesFlicker : public SharedEngineTest, public testing::WithParamInterface<std::string> {};
 
 TEST_P(WedgesFlicker, NoPixelJumpsMoreThanItsTruth) {
   std::string reason;
-  if (!supports(GetParam().id, reason)) GTEST_SKIP() << GetParam().id << ": " << reason;
+  if (!supports(GetParam(), reason)) GTEST_SKIP() << GetParam() << ": " << reason;
   scene::SceneDescription scene = flickerScene();
   const scene::AreaLight& light = scene.lights.front();
   const auto receivers =
       reference::traceReceivers(scene, *scene.camera, light, kFlickerWidth, kFlickerHeight);
   ASSERT_TRUE(receivers) << receivers.error().message;
   renderer().load(scene);
-  renderer().choose({GetParam().id});
+  renderer().choose({GetParam()});
   renderer().desc().target.width = kFlickerWidth;
   renderer().desc().target.height = kFlickerHeight;
   std::vector<std::vector<float>> images;
@@ -75,7 +75,7 @@ TEST_P(WedgesFlicker, NoPixelJumpsMoreThanItsTruth) {
       const double jump = std::abs(after[jumping[j]] - before[jumping[j]]);
       const double own = std::abs(truth[1][j] - truth[0][j]);
       worst = std::max(worst, jump - own);
-      const bool beyond = jump - own > GetParam().jump + kNoise;
+      const bool beyond = jump - own > boundOf(GetParam()) + kNoise;
       if (beyond && tooFar < 10) {
         std::printf("  frame %3d pixel %4u: %.3f to %.3f, truth %.3f to %.3f\n", frame, jumping[j],
                     before[jumping[j]], after[jumping[j]], truth[0][j], truth[1][j]);
@@ -84,16 +84,18 @@ TEST_P(WedgesFlicker, NoPixelJumpsMoreThanItsTruth) {
       ++asked;
     }
   }
-  std::printf("%-21s %d jumps above %.2f, %d beyond their truth's; worst %.3f beyond it\n", GetParam().id,
-              asked, GetParam().jump, tooFar, worst);
+  std::printf("%-21s %d jumps above %.2f, %d beyond their truth's; worst %.3f beyond it\n",
+              GetParam().c_str(), asked, boundOf(GetParam()), tooFar, worst);
   EXPECT_EQ(tooFar, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Techniques, WedgesFlicker, testing::ValuesIn(kFamilies), [](const auto& tested) {
-  std::string name = tested.param.id;
-  std::ranges::replace(name, '-', '_');
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Techniques, WedgesFlicker,
+                         testing::Values("wedges", "wedges-probabilistic", "wedges-blended", "wedges-cells"),
+                         [](const auto& tested) {
+                           std::string name = tested.param;
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
 
 }  // namespace
 }  // namespace halfshadow::test

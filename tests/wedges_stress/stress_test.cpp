@@ -104,20 +104,30 @@ int speckles(const StressTruth& truth, const std::vector<float>& actual) {
 
 struct Family {
   const char* id;
-  /// RMSE over judged ground pixels, lit and shadowed ones included, that no scene may exceed by more than
-  /// its allowance: where casters stand alone (measured: .0129, .0125, …) and where penumbrae meet (measured:
-  /// .055 for sums, .022 for products), each rounded up.
-  double alone, overlapping;
   std::vector<Setting> settings{};
   Configuration configuration() const { return {id, settings}; }
 };
 void PrintTo(const Family& family, std::ostream* stream) {
   *stream << family.id;
 }
-const Family kFamilies[] = {
-    {"wedges", 0.015, 0.06},          {"wedges-probabilistic", 0.015, 0.025},
-    {"wedges-blended", 0.015, 0.015}, {"wedges-blended", 0.015, 0.015, {{"wedges-blended.merge", "minmax"}}},
-    {"wedges-cells", 0.015, 0.01},    {"wedges-cells", 0.015, 0.01, {{"wedges-cells.route", "scatter"}}}};
+const Family kFamilies[] = {{"wedges"},         {"wedges-probabilistic"},
+                            {"wedges-blended"}, {"wedges-blended", {{"wedges-blended.merge", "minmax"}}},
+                            {"wedges-cells"},   {"wedges-cells", {{"wedges-cells.route", "scatter"}}}};
+
+/// What was measured when the test was written, rounded up: no promise, but a change that exceeds it wants a
+/// reason. RMSE over judged ground pixels, lit and shadowed ones included, times the scene's allowance: where
+/// casters stand alone (.0129, .0125, …) and where penumbrae meet (.055 for sums, .022 for products).
+struct FigureOfRecord {
+  const char* id;
+  double alone, overlapping;
+};
+const FigureOfRecord kFiguresOfRecord[] = {{"wedges", 0.015, 0.06},
+                                           {"wedges-probabilistic", 0.015, 0.025},
+                                           {"wedges-blended", 0.015, 0.015},
+                                           {"wedges-cells", 0.015, 0.01}};
+const FigureOfRecord& figureOfRecord(const std::string& id) {
+  return *std::ranges::find(kFiguresOfRecord, id, &FigureOfRecord::id);
+}
 
 void save(const std::string& name, const StressTruth& truth, const std::vector<float>& actual) {
   const std::filesystem::path folder = std::filesystem::path(HALFSHADOW_TEST_OUTPUT_DIR);
@@ -174,8 +184,9 @@ TEST_P(WedgesStress, NoSpeckleAndItsUsualError) {
                 stress.name.c_str(), groundRmse, groundPixels, casterRmse, casterPixels, speckled);
     ASSERT_GT(groundPixels, 1000) << stress.name;
     EXPECT_EQ(speckled, 0) << stress.name;
-    const double limit = stress.allowance * (stress.overlapping ? GetParam().overlapping : GetParam().alone);
-    EXPECT_LE(groundRmse, limit) << stress.name;
+    const FigureOfRecord& record = figureOfRecord(GetParam().id);
+    const double limit = stress.allowance * (stress.overlapping ? record.overlapping : record.alone);
+    EXPECT_LE(groundRmse, limit) << stress.name << ": the figure of record";
     if (speckled > 0 || groundRmse > limit)
       save(std::string(GetParam().id) + "_" + stress.name, truth, actual);
     EXPECT_EQ(hostGl().getError(), static_cast<GLenum>(GL_NO_ERROR)) << stress.name;
