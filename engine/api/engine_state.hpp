@@ -24,11 +24,15 @@
 namespace halfshadow {
 
 struct EngineObject {
-  scene::TriangleMesh mesh;  ///< kept for bounds, tight light fits and silhouettes
+  scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
   scene::CasterGeometry geometry;
   techniques::GpuMesh gpu;
-  glm::dmat4 worldFromObject{1.0};
+  glm::dmat4 worldFromHost{1.0};    ///< as the host placed the positions that it gave
+  glm::dvec3 recenteredBy{0.0};     ///< what was taken off those
+  glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
   scene::Bounds boundsObject;
+  /// Sets worldFromObject; recenteredBy is set before.
+  void place(const glm::dmat4& worldFromHostNow);
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
   gl::Texture baseColorTexture;
