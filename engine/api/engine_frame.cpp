@@ -21,11 +21,6 @@ scene::Camera toCamera(const CameraDesc& desc) {
           .farDistance = desc.farDistance};
 }
 
-double nearReach(const scene::Camera& camera, double aspect) {
-  const double tangent = std::tan(0.5 * camera.verticalFovRadians);
-  return camera.nearDistance * std::sqrt(1.0 + tangent * tangent * (1.0 + aspect * aspect));
-}
-
 Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
   const int limit = std::min(limits.textureSize, limits.renderbufferSize);
   if (target.width <= 0 || target.height <= 0) {
@@ -142,9 +137,13 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
     used = techniqueNamed("none");
   }
   double farthest = 0.0;
-  for (const EngineObject* object : sceneObjects) {
+  std::vector<bool> isCaster(sceneObjects.size(), false);
+  for (const std::uint32_t i : plan.casters) isCaster[i] = true;
+  for (std::size_t i = 0; i < sceneObjects.size(); ++i) {
+    const EngineObject* object = sceneObjects[i];
     if (!object->receives) continue;
-    if (!object->casts) target.shadowlessReceivers.push_back(drawItem(*object));
+    // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
+    if (!isCaster[i]) target.shadowlessReceivers.push_back(drawItem(*object));
     farthest =
         std::max(farthest, api::receiverFarDistance(
                                cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
@@ -280,7 +279,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                  .eyeWorld = camera.eyeWorld,
                  .width = desc.target.width,
                  .height = desc.target.height,
-                 .nearReach = nearReach(camera, aspect)};
+                 .nearReach = scene::nearReach(camera, aspect)};
 
   std::vector<const EngineObject*> sceneObjects;
   std::vector<planner::PlannedObject> planned;
@@ -291,7 +290,10 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                        .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
                        .revision = object.revision,
                        .casts = object.casts,
-                       .receives = object.receives});
+                       .receives = object.receives,
+                       .mesh = &object.mesh,
+                       .support = &object.support(),
+                       .worldFromObject = object.worldFromObject});
     sceneRevision = planner::combineKeys(sceneRevision, object.revision);
   }
   const planner::FramePlan framePlan = planner.plan({.objects = planned,

@@ -74,6 +74,11 @@ void EngineObject::place(const glm::dmat4& worldFromHostNow) {
   worldFromObject = glm::translate(worldFromHost, recenteredBy);
 }
 
+const scene::SupportingPlanes& EngineObject::support() const {
+  if (!supportingPlanes) supportingPlanes = scene::supportingPlanesOf(mesh, recenteredBy);
+  return *supportingPlanes;
+}
+
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   State& state = *state_;
   id = 0;
@@ -145,6 +150,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   object.recenteredBy = scene::recenter(object.mesh);
   object.place(object.worldFromHost);
   object.geometry.positionsChanged();
+  object.supportingPlanes.reset();
   if (desc.normals && !object.mesh.normals.empty()) {
     for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
       object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);

@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,10 +34,13 @@ struct EngineObject {
   scene::Bounds boundsObject;
   /// Sets worldFromObject; recenteredBy is set before.
   void place(const glm::dmat4& worldFromHostNow);
+  /// Of the positions there are now; found on the first call.
+  const scene::SupportingPlanes& support() const;
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
   gl::Texture baseColorTexture;
   std::uint64_t revision = 0;
+  mutable std::optional<scene::SupportingPlanes> supportingPlanes;  ///< see support()
 };
 
 /// What is kept of a light between frames.
