@@ -115,14 +115,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   FrameLight& target = frame.lights[index];
   LightCache& cache = lightCaches[index];
   const int mapSize = settings->integer("map_size");
-  scene::Bounds casterBounds;
-  for (const std::uint32_t i : plan.casters) {
-    target.casters.push_back(drawItem(*sceneObjects[i]));
-    casterBounds.include(scene::transformed(sceneObjects[i]->worldFromObject, sceneObjects[i]->boundsObject));
-  }
-  target.referenceDistance =
-      casterBounds.empty() ? std::max(glm::length(light.centerWorld - toVector(desc.camera.target)), 1e-6)
-                           : std::max(glm::length(light.centerWorld - casterBounds.center()), 1e-6);
+  for (const std::uint32_t i : plan.casters) target.casters.push_back(drawItem(*sceneObjects[i]));
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
     for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
@@ -232,9 +225,7 @@ Status Engine::State::declareReceiverPasses(Frame& frame, const RenderDesc& desc
   }
   frame.color = targets.front().resource;
   frame.graph.markOutput(frame.color);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    frame.shadingInputs.lights.push_back({&lights[i], frame.lights[i].referenceDistance});
-  }
+  for (const scene::AreaLight& light : lights) frame.shadingInputs.lights.push_back(&light);
   if (desc.output != Output::shaded || lights.size() == 1) {
     declareVisibilityPass(frame, desc, std::move(targets));
     return {};

@@ -64,7 +64,6 @@ struct FrameLight {
   std::vector<techniques::DrawItem> casters;
   std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
-  double referenceDistance = 1.0;
   techniques::ReceiverProgramSet programs;
 };
 

@@ -25,7 +25,7 @@ namespace halfshadow::planner {
   X(unchanged, "unchanged", "its inputs have the same revisions as when it was last made")             \
   X(behindLight, "behind-light", "the caster lies wholly behind the light's plane")                    \
   X(noReceiverBehind, "no-receiver-behind", "no receiver lies in the caster's shadow region")          \
-  X(nothingBeyond, "nothing-beyond", "no receiver lies beyond the caster, seen from the light")          \
+  X(nothingBeyond, "nothing-beyond", "no receiver lies beyond the caster, seen from the light")        \
   X(shadowOutOfView, "shadow-out-of-view", "the caster's shadow region misses every visible receiver") \
   X(receiverOutOfView, "receiver-out-of-view", "the receiver lies outside the camera's view")          \
   X(noCasters, "no-casters", "no caster can shadow a receiver")                                        \
@@ -80,9 +80,10 @@ struct FramePlan {
 /// Keeps, per light, which casters the cached light view holds.
 ///
 /// Static casters and light: the view is made from every caster that can shadow any receiver, whatever the
-/// camera sees, so that a camera-only move changes no key, unless the camera enters or leaves a caster. While a caster or the light changes in two frames
-/// running (the view is remade anyway), casters whose shadow region misses all visible receivers are dropped
-/// too; when the movement ends and the camera needs a dropped caster, the view is remade once.
+/// camera sees, so that a camera-only move changes no key, unless the camera enters or leaves a caster. While
+/// a caster or the light changes in two frames running (the view is remade anyway), casters whose shadow
+/// region misses all visible receivers are dropped too; when the movement ends and the camera needs a dropped
+/// caster, the view is remade once.
 class FramePlanner {
  public:
   FramePlan plan(const FrameInput& input);

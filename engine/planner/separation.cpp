@@ -17,13 +17,16 @@ constexpr double kDouble = 1e-13;
 scene::SupportingPlane placed(const scene::SupportingPlane& plane, const glm::dmat4& fromObject,
                               const glm::dmat3& normalFromObject) {
   const glm::dvec3 normal = glm::normalize(normalFromObject * plane.normal);
-  const glm::dvec3 on(fromObject * glm::dvec4(plane.normal * plane.offset));
+  const glm::dvec3 on(fromObject * glm::dvec4(plane.normal * plane.offset, 1.0));
   return {normal, glm::dot(normal, on)};
 }
 }  // namespace
 
 Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
-    : input_(input), light_(light), lightCorners_(lightCornersRelative(light)), bodies_(input.objects.size()) {}
+    : input_(input),
+      light_(light),
+      lightCorners_(lightCornersRelative(light)),
+      bodies_(input.objects.size()) {}
 
 const Separation::Body& Separation::body(std::uint32_t index) {
   std::optional<Body>& known = bodies_[index];
@@ -47,9 +50,9 @@ const Separation::Body& Separation::body(std::uint32_t index) {
   }
   const auto corners = box.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    made.corners[i] = glm::dvec3(made.fromObject * glm::dvec4(corners[i]));
+    made.corners[i] = glm::dvec3(made.fromObject * glm::dvec4(corners[i], 1.0));
   }
-  made.center = glm::dvec3(made.fromObject * glm::dvec4(box.center()));
+  made.center = glm::dvec3(made.fromObject * glm::dvec4(box.center(), 1.0));
   return made;
 }
 
@@ -98,7 +101,9 @@ bool Separation::enclosesLight(std::uint32_t index) {
 
 bool Separation::shadowsItself(std::uint32_t index) {
   const scene::SupportingPlanes& support = *input_.objects[index].support;
-  if (!support.planar && !support.convex) return true;
+  // The part of the light behind a flat receiver's own plane is not its own doing.
+  if (support.planar) return false;
+  if (!support.convex) return true;
   const Body& shape = body(index);
   for (std::size_t i = 0; i < shape.facePlanes; ++i) {
     const scene::SupportingPlane& plane = shape.planes[i];
@@ -106,7 +111,7 @@ bool Separation::shadowsItself(std::uint32_t index) {
     const LightExtent extent = lightAlong(plane.normal);
     if (extent.low < plane.offset - slack && extent.high > plane.offset + slack) return true;
   }
-  return support.convex && maySeeInside(input_, index) && !enclosesLight(index);
+  return maySeeInside(input_, index) && !enclosesLight(index);
 }
 
 bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {

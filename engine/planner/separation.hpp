@@ -17,8 +17,9 @@ namespace halfshadow::planner {
 /// - where a plane has the caster on one side and the receiver with the whole light on the other: one of the
 ///   few planes that support either (a ground under what stands on it, a box under a floor);
 /// - where both it and the whole light are inside the caster and that is a closed convex body (a room);
-/// - by itself, when it is flat or a closed convex body, no face's plane cuts the light, and it is seen from
-///   outside or holds the light: its faces then see all of the light or do not face it.
+/// - by itself, when it is flat; or when it is a closed convex body, no face's plane cuts the light, and it
+/// is
+///   seen from outside or holds the light: its faces then see all of the light or do not face it.
 /// Touching is allowed, within the rounding of the coordinates to float. Objects without shape are never
 /// proved anything of.
 class Separation {

@@ -23,8 +23,7 @@ struct Face {
 Face faceOf(const TriangleMesh& mesh, std::size_t triangle) {
   Face face;
   for (std::size_t k = 0; k < 3; ++k) face.corners[k] = mesh.positions[mesh.indices[3 * triangle + k]];
-  const glm::dvec3 cross =
-      glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
+  const glm::dvec3 cross = glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]);
   const double length = glm::length(cross);
   if (length > 0.0) face.normal = cross / length;
   return face;
@@ -39,8 +38,9 @@ std::vector<std::size_t> largestFaces(const TriangleMesh& mesh) {
     areas[t] = glm::length(glm::cross(face.corners[1] - face.corners[0], face.corners[2] - face.corners[0]));
   }
   const std::size_t count = std::min(kMostTried, order.size());
-  std::partial_sort(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
-                    [&](std::size_t a, std::size_t b) { return areas[a] != areas[b] ? areas[a] > areas[b] : a < b; });
+  std::partial_sort(
+      order.begin(), order.begin() + static_cast<std::ptrdiff_t>(count), order.end(),
+      [&](std::size_t a, std::size_t b) { return areas[a] != areas[b] ? areas[a] > areas[b] : a < b; });
   order.resize(count);
   return order;
 }
@@ -67,10 +67,10 @@ class Finder {
     }
     bool all = !planes_.ofFaces.empty();
     for (std::size_t t = 0; t < mesh_.triangleCount() && all; ++t) all = liesInAny(faceOf(mesh_, t));
-    planes_.planar = all && planes_.ofFaces.size() == 2 &&
-                     glm::dot(planes_.ofFaces[0].normal, planes_.ofFaces[1].normal) < 0.0 &&
-                     planes_.ofFaces[0].offset + planes_.ofFaces[1].offset <=
-                         roundingAlong(planes_.ofFaces[0].normal);
+    planes_.planar =
+        all && planes_.ofFaces.size() == 2 &&
+        glm::dot(planes_.ofFaces[0].normal, planes_.ofFaces[1].normal) < 0.0 &&
+        planes_.ofFaces[0].offset + planes_.ofFaces[1].offset <= roundingAlong(planes_.ofFaces[0].normal);
     planes_.convex = all && !planes_.planar && mesh_.shellCount == 1 && mesh_.statistics.closed() &&
                      mesh_.statistics.nonManifoldEdges == 0;
   }
@@ -108,8 +108,8 @@ class Finder {
 SupportingPlanes supportingPlanesOf(const TriangleMesh& mesh, const glm::dvec3& recenteredBy) {
   SupportingPlanes planes;
   planes.bounds = boundsOf(mesh);
-  planes.largestCoordinate = glm::max(glm::abs(planes.bounds.low + recenteredBy),
-                                      glm::abs(planes.bounds.high + recenteredBy));
+  planes.largestCoordinate =
+      glm::max(glm::abs(planes.bounds.low + recenteredBy), glm::abs(planes.bounds.high + recenteredBy));
   Finder(mesh, planes).find();
   return planes;
 }

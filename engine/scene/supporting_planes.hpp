@@ -30,8 +30,8 @@ struct SupportingPlanes {
   glm::dvec3 largestCoordinate{0.0};
 };
 
-/// `recenteredBy`: what recenter() took off the positions. A face counts as in a plane, and a vertex as behind
-/// it, within the rounding of the coordinates to float.
+/// `recenteredBy`: what recenter() took off the positions. A face counts as in a plane, and a vertex as
+/// behind it, within the rounding of the coordinates to float.
 SupportingPlanes supportingPlanesOf(const TriangleMesh& mesh, const glm::dvec3& recenteredBy);
 
 }  // namespace halfshadow::scene
