@@ -145,10 +145,20 @@ bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
 bool maySeeInside(const FrameInput& input, std::uint32_t object) {
   if (input.camera == nullptr) return true;
   const double reach = scene::nearReach(*input.camera, input.aspectWidthOverHeight);
-  const scene::Bounds& bounds = input.objects[object].boundsWorld;
+  const PlannedObject& seen = input.objects[object];
+  const scene::Bounds& bounds = seen.boundsWorld;
   const glm::dvec3& eye = input.camera->eyeWorld;
-  return glm::all(glm::greaterThanEqual(eye, bounds.low - reach)) &&
-         glm::all(glm::lessThanEqual(eye, bounds.high + reach));
+  if (!glm::all(glm::greaterThanEqual(eye, bounds.low - reach)) ||
+      !glm::all(glm::lessThanEqual(eye, bounds.high + reach))) {
+    return false;
+  }
+  if (seen.support == nullptr || !seen.support->convex) return true;
+  glm::dmat4 fromObject = seen.worldFromObject;
+  fromObject[3] -= glm::dvec4(eye, 0.0);
+  const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(fromObject)));
+  return std::ranges::all_of(seen.support->ofFaces, [&](const scene::SupportingPlane& plane) {
+    return placed(plane, fromObject, normalFromObject).offset >= -1.001 * reach;
+  });
 }
 
 }  // namespace halfshadow::planner
