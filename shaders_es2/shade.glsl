@@ -32,12 +32,16 @@ vec3 hs_albedo() {
 
 float hs_sky(HS_HIGHP vec3 n) { return 0.13 + 0.07 * n.y; }
 
-// light: xyz centre, w the distance at which the intensity counts 1
+// light: xyz centre, w 1 / the distance at which the intensity counts 1; 0: it does so everywhere
 vec3 hs_lightTerm(HS_HIGHP vec3 n, HS_HIGHP vec4 light, HS_HIGHP vec3 emission, vec3 color) {
-  HS_HIGHP vec3 fromLight = (v_shadePosition - light.xyz) / light.w;
-  HS_HIGHP float distance = max(length(fromLight), 1e-3);
-  float cosine = max(-dot(n, fromLight) / distance, 0.0) * step(0.0, dot(emission, fromLight));
-  return color * (0.85 * min(1.0 / (distance * distance), 4.0) * cosine);
+  HS_HIGHP vec3 fromLight = v_shadePosition - light.xyz;
+  HS_HIGHP float size = max(max(abs(fromLight.x), abs(fromLight.y)), abs(fromLight.z));
+  fromLight = size > 0.0 ? fromLight / size : emission;  // squares of very small worlds would vanish
+  HS_HIGHP float relative = length(fromLight);
+  float cosine = max(-dot(n, fromLight) / relative, 0.0) * step(0.0, dot(emission, fromLight));
+  HS_HIGHP float distance = max(relative * (size * light.w), 1e-3);
+  float falloff = light.w > 0.0 ? min(1.0 / (distance * distance), 4.0) : 1.0;
+  return color * (0.85 * falloff * cosine);
 }
 
 vec3 hs_display(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }

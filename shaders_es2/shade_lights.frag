@@ -4,7 +4,7 @@
 #include "shade.glsl"
 uniform HS_HIGHP sampler2D u_visibility;
 uniform HS_HIGHP vec4 u_viewport;          // xy: 1 / size, zw: -origin / size
-uniform HS_HIGHP vec4 u_lightPosition[4];  // xyz: relative to the first light's centre, w: reference distance
+uniform HS_HIGHP vec4 u_lightPosition[4];  // xyz: relative to the first light's centre, w: 1 / reference distance
 uniform HS_HIGHP vec4 u_lightEmission[4];  // xyz: unit direction
 uniform HS_HIGHP vec4 u_lightColor[4];     // rgb: colour times intensity, 0 where there is no light
 

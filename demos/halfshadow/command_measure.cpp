@@ -96,6 +96,11 @@ ExitStatus measureScene(const Arguments& arguments) {
         arguments.truth.originLiftWorld);
   }();
   if (!truth) return fail(truth.error());
+  if (truth->receiverPixels == 0) {
+    return fail({ErrorCode::emptyScene, scene->name +
+                                            ": no pixel shows a receiver that faces the light, so there is "
+                                            "nothing to measure; point --camera at the scene"});
+  }
   const auto techniques = measureAll(**session, *scene, *truth, *ids, arguments);
   if (!techniques) return fail(techniques.error());
   const DriverRecord driver = (*session)->engine().driver();

@@ -118,6 +118,20 @@ class Renderer {
     return {};
   }
 
+  /// An image of one colour may show a wall or nothing; rays tell.
+  Status checkSomethingIsSeen(const scene::SceneDescription& scene) const {
+    if (!isUniform_) return {};
+    const auto receivers = reference::traceReceivers(scene, *scene.camera, scene.lights.front(),
+                                                     arguments_.size.width, arguments_.size.height);
+    if (!receivers) return receivers.error();
+    const bool isSeen = std::ranges::any_of(receivers->normalWorld,
+                                            [](const auto& normal) { return glm::dot(normal, normal) > 0; });
+    if (isSeen) return {};
+    return Error{ErrorCode::emptyScene, scene.name +
+                                            ": the picture is empty, no surface lies in the camera's view; "
+                                            "point --camera at the scene"};
+  }
+
   const std::string& planText() const { return planText_; }
   const std::string& planGraphviz() const { return planGraphviz_; }
 
@@ -152,7 +166,16 @@ class Renderer {
       for (Json& pass : passes_) pass.erase("time_ms");
       skipped_ = measure::toJson(measure::skipsOf(report));
     }
-    return session_.read(desc.target.width, desc.target.height);
+    auto image = session_.read(desc.target.width, desc.target.height);
+    isUniform_ = isUniform_ && image && isUniform(*image);
+    return image;
+  }
+
+  static bool isUniform(const measure::RgbaImage& image) {
+    for (std::size_t i = 4; i < image.pixels.size(); ++i) {
+      if (image.pixels[i] != image.pixels[i - 4]) return false;
+    }
+    return true;
   }
 
   measure::EngineSession& session_;
@@ -160,6 +183,7 @@ class Renderer {
   std::string technique_, planText_, planGraphviz_;
   std::uint64_t memoryBytes_ = 0;
   Json counters_, passes_, skipped_;
+  bool isUniform_ = true;  ///< every image so far is of one colour
   std::vector<std::string> files_;
 };
 
@@ -201,6 +225,7 @@ ExitStatus render(const Arguments& arguments) {
   Renderer renderer(**session, arguments, technique);
   if (Status status = renderFrames(**session, arguments, *scene, renderer); !status)
     return fail(status.error());
+  if (Status status = renderer.checkSomethingIsSeen(*scene); !status) return fail(status.error());
   if (!arguments.graphviz.empty()) {
     const Status written = measure::writeTextFile(arguments.graphviz, renderer.planGraphviz());
     if (!written) return fail(written.error());

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
 #include "measure/device_settings.hpp"
 
@@ -17,13 +18,23 @@ Status toStatus(const Outcome& outcome) {
   return outcome.ok() ? Status{} : Status(Error{outcome.code, outcome.message});
 }
 
-ObjectDesc objectDesc(const scene::SceneObject& object) {
+/// Triangles as they were wound in the file: the engine mends them itself, and remembers what was inward.
+std::vector<std::uint32_t> sourceIndices(const scene::TriangleMesh& mesh) {
+  std::vector<std::uint32_t> indices = mesh.indices;
+  for (std::size_t t = 0; t < mesh.turned.size(); ++t) {
+    if (mesh.turned[t]) std::swap(indices[3 * t + 1], indices[3 * t + 2]);
+  }
+  return indices;
+}
+
+/// `indices` are read while the description is in use.
+ObjectDesc objectDesc(const scene::SceneObject& object, const std::vector<std::uint32_t>& indices) {
   const scene::TriangleMesh& mesh = *object.mesh;
   ObjectDesc desc{
       .mesh = {.positions = glm::value_ptr(mesh.positions.front()),
                .vertexCount = static_cast<std::uint32_t>(mesh.positions.size()),
-               .indices = mesh.indices.data(),
-               .indexCount = mesh.indices.size(),
+               .indices = indices.data(),
+               .indexCount = indices.size(),
                .normals = mesh.normals.empty() ? nullptr : glm::value_ptr(mesh.normals.front()),
                .texcoords = mesh.texcoords.empty() ? nullptr : glm::value_ptr(mesh.texcoords.front())},
       .casts = object.casts,
@@ -51,7 +62,7 @@ CameraDesc cameraDesc(const scene::Camera& camera) {
 }
 
 LightDesc lightDesc(const scene::AreaLight& light) {
-  LightDesc desc{.intensity = light.intensity};
+  LightDesc desc{.intensity = light.intensity, .referenceDistance = light.referenceDistance};
   store(light.centerWorld, desc.center);
   store(light.halfU, desc.halfU);
   store(light.halfV, desc.halfV);
@@ -101,7 +112,7 @@ int EngineSession::sizeLimit() const {
 Status EngineSession::addObjects(const scene::SceneDescription& scene) {
   for (const scene::SceneObject& object : scene.objects) {
     ObjectId id = 0;
-    const Outcome outcome = engine_->addObject(objectDesc(object), id);
+    const Outcome outcome = engine_->addObject(objectDesc(object, sourceIndices(*object.mesh)), id);
     if (!outcome.ok()) {
       return Error{outcome.code, scene.name + ": object \"" + object.name + "\": " + outcome.message};
     }
@@ -118,7 +129,7 @@ Status EngineSession::load(const scene::SceneDescription& scene) {
 
 Status EngineSession::updateObject(std::size_t index, const scene::SceneObject& object) {
   scene::SceneObject& loaded = objects_[index];
-  const ObjectDesc desc = objectDesc(object);
+  const ObjectDesc desc = objectDesc(object, object.mesh->indices);  // which setVertices does not read
   if (loaded.worldFromObject != object.worldFromObject) {
     if (Status s = toStatus(engine_->setTransform(objectIds_[index], desc.worldFromObject)); !s) return s;
   }

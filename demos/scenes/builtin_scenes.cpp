@@ -86,6 +86,7 @@ void placeInWorld(scene::SceneDescription& description, double scale, double shi
     light.centerWorld = light.centerWorld * scale + offset;
     light.halfU *= scale;
     light.halfV *= scale;
+    light.referenceDistance *= scale;
   }
   description.camera->eyeWorld = description.camera->eyeWorld * scale + offset;
   description.camera->targetWorld = description.camera->targetWorld * scale + offset;

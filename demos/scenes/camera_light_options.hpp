@@ -17,7 +17,8 @@ namespace halfshadow::scenes {
 Result<scene::Camera> parseCamera(std::string_view text);
 
 /// "center=x,y,z target=x,y,z size=WxH [up=x,y,z]" (full side lengths; "size=S" is a square, 0x0 a point), or
-/// "center=x,y,z u=x,y,z v=x,y,z" (half-extent vectors; emits towards u × v).
+/// "center=x,y,z u=x,y,z v=x,y,z" (half-extent vectors; shines to the side of u × v; both zero: a point that
+/// shines downward).
 /// Errors: invalidLight (the message quotes the word that is wrong).
 Result<scene::AreaLight> parseLight(std::string_view text);
 

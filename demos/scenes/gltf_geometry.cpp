@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "scene/bounds.hpp"
 #include "scenes/gltf_accessors.hpp"
 
 namespace halfshadow::scenes {
@@ -183,6 +184,14 @@ std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corn
   return triangles;
 }
 
+/// Skinned vertices are world positions in double: about their middle single precision holds them as well as
+/// at the origin, wherever the skeleton stands.
+glm::dvec3 middleOf(const std::vector<glm::dvec3>& positions) {
+  scene::Bounds bounds;
+  for (const glm::dvec3& position : positions) bounds.include(position);
+  return bounds.empty() ? glm::dvec3(0.0) : bounds.center();
+}
+
 /// Unit normals, or none when one of them has no direction: flat shading is better than a black spot.
 std::vector<glm::vec3> unitNormals(const std::vector<glm::dvec3>& normals) {
   std::vector<glm::vec3> result;
@@ -195,18 +204,18 @@ std::vector<glm::vec3> unitNormals(const std::vector<glm::dvec3>& normals) {
 }
 }  // namespace
 
-Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf::Model& model,
-                                                                 const PrimitiveRequest& request,
-                                                                 std::vector<std::string>& notes) {
+Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
+                                    std::vector<std::string>& notes) {
   const tinygltf::Mesh& source = model.meshes[request.mesh];
   const tinygltf::Primitive& primitive = source.primitives[request.primitive];
   const std::string what = nameOf(request);
+  PrimitiveMesh result;
   if (primitive.mode < TINYGLTF_MODE_POINTS || primitive.mode > TINYGLTF_MODE_TRIANGLE_FAN) {
     return malformed(what + " has the unknown mode " + std::to_string(primitive.mode));
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
     notes.push_back(what + " consists of points or lines, which cast no shadow, and was skipped");
-    return std::shared_ptr<const scene::TriangleMesh>();
+    return PrimitiveMesh{};
   }
   Result<Vertices> vertices = readVertices(model, primitive, what);
   if (!vertices) return vertices.error();
@@ -214,6 +223,9 @@ Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf:
   if (Status s = applyMorphs(model, primitive, weights, what, *vertices); !s) return s.error();
   if (request.jointMatrices != nullptr) {
     if (Status s = applySkin(model, primitive, *request.jointMatrices, what, *vertices); !s) return s.error();
+    result.centerWorld =
+        request.centerWorld != nullptr ? *request.centerWorld : middleOf(vertices->positions);
+    for (glm::dvec3& position : vertices->positions) position -= result.centerWorld;
   }
   Result<std::vector<std::uint32_t>> corners =
       readCorners(model, primitive, vertices->positions.size(), what);
@@ -221,7 +233,7 @@ Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf:
   std::vector<std::uint32_t> indices = trianglesOf(primitive.mode, std::move(corners).value());
   if (indices.empty()) {
     notes.push_back(what + " has no triangles and was skipped");
-    return std::shared_ptr<const scene::TriangleMesh>();
+    return PrimitiveMesh{};
   }
   if (request.isMirrored) {
     for (glm::dvec3& position : vertices->positions) position.x = -position.x;
@@ -240,10 +252,11 @@ Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf:
   });
   if (!mesh && mesh.error().code == ErrorCode::emptyScene) {
     notes.push_back(what + " has only triangles without an area and was skipped");
-    return std::shared_ptr<const scene::TriangleMesh>();
+    return PrimitiveMesh{};
   }
   if (!mesh) return malformed(what + ": " + mesh.error().message);
-  return std::make_shared<const scene::TriangleMesh>(std::move(mesh).value());
+  result.mesh = std::make_shared<const scene::TriangleMesh>(std::move(mesh).value());
+  return result;
 }
 
 }  // namespace halfshadow::scenes

@@ -20,15 +20,22 @@ struct PrimitiveRequest {
   std::size_t primitive = 0;
   const std::vector<double>* morphWeights = nullptr;  ///< null = the mesh's own
   const std::vector<glm::dmat4>* jointMatrices =
-      nullptr;  ///< null = not skinned; else positions come out in world space
+      nullptr;  ///< null = not skinned; else positions come out in world space, less a centre
+  /// Skins only: what to take off; null = the middle of this primitive. One for all primitives of a node, so
+  /// that vertices which they share stay shared.
+  const glm::dvec3* centerWorld = nullptr;
   /// The transform that will be applied mirrors: x is negated and the winding reversed here instead, so that
   /// the mesh is wound outward in its own space as well as in the world.
   bool isMirrored = false;
 };
 
-/// Null (with a note) for points, lines and primitives without a triangle that has an area.
-Result<std::shared_ptr<const scene::TriangleMesh>> primitiveMesh(const tinygltf::Model& model,
-                                                                 const PrimitiveRequest& request,
-                                                                 std::vector<std::string>& notes);
+struct PrimitiveMesh {
+  std::shared_ptr<const scene::TriangleMesh> mesh;
+  glm::dvec3 centerWorld{0.0};  ///< of skins: taken off the positions, to be put back by the transform
+};
+
+/// No mesh (with a note) for points, lines and primitives without a triangle that has an area.
+Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
+                                    std::vector<std::string>& notes);
 
 }  // namespace halfshadow::scenes

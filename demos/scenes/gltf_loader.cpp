@@ -138,11 +138,17 @@ class GltfSceneBuilder {
       worldFromObject = worldFromObject * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
 
     const std::size_t count = model_.meshes[node.mesh].primitives.size();
+    glm::dvec3 center(0.0);
     for (request.primitive = 0; request.primitive < count; ++request.primitive) {
-      const Result<std::shared_ptr<const scene::TriangleMesh>> mesh = meshFor(request);
-      if (!mesh) return mesh.error();
-      if (*mesh == nullptr) continue;
-      if (Status status = addObject(nodeIndex, request, *mesh, worldFromObject); !status) return status;
+      const Result<PrimitiveMesh> made = meshFor(request);
+      if (!made) return made.error();
+      if (made->mesh == nullptr) continue;
+      if (request.jointMatrices != nullptr && request.centerWorld == nullptr) {
+        center = made->centerWorld;
+        request.centerWorld = &center;
+        worldFromObject = glm::translate(worldFromObject, center);
+      }
+      if (Status status = addObject(nodeIndex, request, made->mesh, worldFromObject); !status) return status;
     }
     return {};
   }
@@ -169,14 +175,14 @@ class GltfSceneBuilder {
   }
 
   /// Nodes that show the same mesh undeformed share it.
-  Result<std::shared_ptr<const scene::TriangleMesh>> meshFor(const PrimitiveRequest& request) {
+  Result<PrimitiveMesh> meshFor(const PrimitiveRequest& request) {
     const bool isShared = request.jointMatrices == nullptr && request.morphWeights == nullptr;
     const auto key = std::make_tuple(request.mesh, request.primitive, request.isMirrored);
     if (const auto found = sharedMeshes_.find(key); isShared && found != sharedMeshes_.end())
-      return found->second;
-    auto mesh = primitiveMesh(model_, request, scene_.notes);
-    if (mesh && isShared) sharedMeshes_[key] = *mesh;
-    return mesh;
+      return PrimitiveMesh{found->second};
+    auto made = primitiveMesh(model_, request, scene_.notes);
+    if (made && isShared) sharedMeshes_[key] = made->mesh;
+    return made;
   }
 
   Status addCamera(std::size_t nodeIndex) {
@@ -275,6 +281,7 @@ class GltfSceneBuilder {
       Result<scene::AreaLight> light = scene::areaLightAimed(center, center + aim * reach, pending.width,
                                                              pending.height, glm::dvec3(world[1]));
       if (!light) return malformed(what + ": " + light.error().message);
+      light->referenceDistance = 0.0;  // the file names no distance, and none may come from the bounds
       const std::vector<double>& color = pending.source->color;
       if (color.size() == 3) light->color = glm::vec3(color[0], color[1], color[2]);
       // Candela and lux do not compare with anything here: the brightest light counts as 1.

@@ -8,6 +8,7 @@
 #include <glm/trigonometric.hpp>
 #include <limits>
 
+#include "scenes/added_ground.hpp"
 #include "scenes/builtin_scenes.hpp"
 #include "scenes/gltf_loader.hpp"
 #include "scenes/shapes.hpp"
@@ -72,14 +73,36 @@ void removeGround(SceneDescription& description) {
   std::erase_if(description.objects, [](const SceneObject& o) { return o.name == "ground" && !o.casts; });
 }
 
-void addGround(SceneDescription& description, const Bounds& subject) {
+bool hasGround(const SceneDescription& description) {
+  return std::ranges::any_of(description.objects,
+                             [](const SceneObject& o) { return o.name == "ground" && !o.casts; });
+}
+
+void addGround(SceneDescription& description, const Bounds& subject, double height) {
   SceneObject ground = casterOf("ground", planeShape({0, 0, 0}, 40.0));
   ground.casts = false;
-  const glm::dvec3 center(subject.center().x, subject.low.y, subject.center().z);
+  const glm::dvec3 center(subject.center().x, height, subject.center().z);
   ground.worldFromObject =
       glm::scale(glm::translate(glm::dmat4(1.0), center), glm::dvec3(std::max(subject.radius(), 1e-30)));
   description.objects.push_back(std::move(ground));
-  description.notes.push_back("the scene has no floor: a ground plane was added at its lowest point");
+}
+
+/// With the camera and the lights that the scene has in the end.
+void addGroundIfWanted(SceneDescription& description, const Bounds& subject, GroundMode mode) {
+  if (mode == GroundMode::off || hasGround(description)) return;
+  if (mode == GroundMode::automatic && hasFloor(description)) return;
+  const GroundPlace place = groundPlaceFor(description);
+  if (mode == GroundMode::automatic && !place.wanted) {
+    description.notes.push_back(place.note);
+    return;
+  }
+  addGround(description, subject, place.height);
+  if (place.wanted) {
+    description.notes.push_back("the scene has no floor: a ground plane was added at its lowest point" +
+                                (place.note.empty() ? place.note : "; " + place.note));
+  } else {
+    description.notes.push_back("a ground plane was added as asked; without that " + place.note);
+  }
 }
 
 Status addLight(SceneDescription& description, const Bounds& subject) {
@@ -128,30 +151,7 @@ void addCamera(SceneDescription& description, const Bounds& subject) {
   description.notes.push_back("the scene has no camera: one was fitted to its casters and their shadow");
 }
 
-double distanceTo(const Bounds& bounds, const glm::dvec3& point) {
-  return glm::length(glm::max(glm::max(bounds.low - point, point - bounds.high), glm::dvec3(0.0)));
-}
 }  // namespace
-
-void fitNearAndFar(scene::Camera& camera, const SceneDescription& description) {
-  const glm::dvec3 forward = glm::normalize(camera.targetWorld - camera.eyeWorld);
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0, farthestAnywhere = 0.0;
-  for (const Bounds& bounds : boundsPerObject(description)) {
-    nearest = std::min(nearest, distanceTo(bounds, camera.eyeWorld));
-    for (const glm::dvec3& corner : bounds.corners()) {
-      farthest = std::max(farthest, glm::dot(corner - camera.eyeWorld, forward));
-      farthestAnywhere = std::max(farthestAnywhere, glm::length(corner - camera.eyeWorld));
-    }
-  }
-  if (!(farthest > 0.0)) farthest = farthestAnywhere;  // nothing in front: any range will do
-  if (!(farthest > 0.0)) farthest = 1.0;
-  constexpr double kWidestAspect = 2.0;
-  const double cornerTangent = std::tan(camera.verticalFovRadians / 2) * std::hypot(1.0, kWidestAspect);
-  const double cosine = 1.0 / std::hypot(1.0, cornerTangent);
-  camera.farDistance = 1.1 * farthest;
-  camera.nearDistance =
-      std::clamp(0.9 * nearest * cosine, camera.farDistance / 5000.0, 0.5 * camera.farDistance);
-}
 
 Status completeScene(SceneDescription& description, const SceneOptions& options) {
   if (options.ground == GroundMode::off) removeGround(description);
@@ -160,18 +160,6 @@ Status completeScene(SceneDescription& description, const SceneOptions& options)
                  description.name + ": the scene has no triangles; give one that has some"};
   }
   const Bounds subject = subjectBounds(description);
-  const bool hasReceiver = std::any_of(description.objects.begin(), description.objects.end(),
-                                       [](const auto& o) { return o.receives; });
-  if (options.ground == GroundMode::on ||
-      (options.ground == GroundMode::automatic && !hasFloor(description))) {
-    const bool isThere = std::any_of(description.objects.begin(), description.objects.end(),
-                                     [](const SceneObject& o) { return o.name == "ground" && !o.casts; });
-    if (!isThere) addGround(description, subject);
-  } else if (!hasReceiver) {
-    return Error{ErrorCode::emptyScene, description.name +
-                                            ": nothing in the scene receives shadows; mark an object "
-                                            "with receives = true or use --ground on"};
-  }
   if (options.light) description.lights = {*options.light};
   if (description.lights.empty()) {
     if (Status status = addLight(description, subject); !status) return status;
@@ -180,6 +168,14 @@ Status completeScene(SceneDescription& description, const SceneOptions& options)
     description.camera = *options.camera;
   } else if (!description.camera) {
     addCamera(description, subject);
+  }
+  if (Status status = scene::checkCamera(*description.camera); !status) return status;
+  addGroundIfWanted(description, subject, options.ground);
+  if (std::ranges::none_of(description.objects, &SceneObject::receives)) {
+    return Error{ErrorCode::emptyScene,
+                 description.name +
+                     ": nothing in the scene receives shadows; mark an object with receives = true or use "
+                     "--ground on"};
   }
   fitNearAndFar(*description.camera, description);
   return scene::checkCamera(*description.camera);

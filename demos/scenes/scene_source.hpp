@@ -12,9 +12,9 @@
 
 namespace halfshadow::scenes {
 
-/// automatic: a ground plane is added unless the scene already has a floor: an object that receives, is at
-/// least as wide in x and in z as all other casters together, begins at or below their middle, and is flat
-/// (less high than a quarter of its width).
+/// automatic: a ground plane is added unless the scene already has a floor, or would be hidden by one (see
+/// added_ground.hpp). A floor is an object that receives, is at least as wide in x and in z as all other
+/// casters together, begins at or below their middle, and is flat (less high than a quarter of its width).
 enum class GroundMode { automatic, on, off };
 
 struct SceneOptions {
@@ -31,9 +31,10 @@ struct SceneOptions {
 ///  - light: centre c + 3 r · norm(0.35, 1, 0.3), aimed at c, square, half size 0.1 × its distance;
 ///  - camera: vertical field of view 34°, looking along norm(0.55, -0.75, -0.6) at the middle of the casters
 ///    and of their shadow on the ground, just far enough to see both in a 4:3 image;
-///  - ground: plane at the casters' lowest y, casts = false, 40 r wide, below the centre of the casters;
-///    GroundMode::on adds it also to scenes that have a floor, GroundMode::off removes objects named
-///    `ground` that cast nothing;
+///  - ground: plane at the scene's lowest y, casts = false, 40 r wide, below the centre of the casters; not
+///    where it would come between the camera or a light and the scene, or lie in a surface that is seen (see
+///    added_ground.hpp). GroundMode::on adds it to all scenes, GroundMode::off removes objects named `ground`
+///    that cast nothing;
 ///  - near and far: see fitNearAndFar.
 /// Errors: those of makeBuiltinScene and loadGltf; invalidCamera, invalidLight (for the overrides);
 /// emptyScene.
@@ -42,9 +43,10 @@ Result<scene::SceneDescription> openScene(const std::string& source, const Scene
 /// The rules above, for a scene that is already in memory.
 Status completeScene(scene::SceneDescription& description, const SceneOptions& options);
 
-/// Sets near to 0.9 × the smallest view depth that a point at the distance of the nearest object's box can
-/// have in an image of aspect up to 2:1, but at least 1/5000 of far; far to 1.1 × the largest view depth of
-/// all boxes.
+/// Sets near to 0.9 × the smallest view depth of what is seen in an image of aspect up to 2:1, however far
+/// the scene goes on behind it; slivers nearer than a fiftieth of what rays through the image meet first are
+/// left out of that when it is less than 1/5000 of far. Sets far to 1.1 × the largest view depth of all
+/// vertices.
 void fitNearAndFar(scene::Camera& camera, const scene::SceneDescription& description);
 
 }  // namespace halfshadow::scenes

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <glm/matrix.hpp>
+#include <limits>
 #include <unordered_map>
 
 #include "scene/half_edge_mesh.hpp"
@@ -70,6 +71,8 @@ void addAdjacency(const Adjacency& adjacency, ObjectReport& report) {
   add(report.repairedTJunctions, "T-junction split", "T-junctions split");
   add(report.filledGaps, "crack or small hole filled", "cracks or small holes filled");
   add(report.flippedFaces, "face turned round", "faces turned round");
+  add(report.turnedTriangles, "triangle wound inward turned round, for drawing too",
+      "triangles wound inward turned round, for drawing too");
   add(inward, "part was wound inward: a light inside it still shines out",
       "parts were wound inward: lights inside them still shine out");
   add(unorientable, "part cannot be wound alike and is a sheet",
@@ -89,6 +92,8 @@ ObjectReport reportOn(const SceneObject& object, AdjacencyOfMeshes& adjacency) {
       .casts = object.casts,
       .receives = object.receives,
   };
+  report.turnedTriangles =
+      static_cast<std::uint32_t>(std::count(mesh.turned.begin(), mesh.turned.end(), std::uint8_t{1}));
   addAdjacency(adjacency.of(mesh), report);
   for (std::uint32_t i = 0; i < mesh.weldedVertex.size(); ++i)
     report.weldedVertices += mesh.weldedVertex[i] == i;
@@ -96,6 +101,15 @@ ObjectReport reportOn(const SceneObject& object, AdjacencyOfMeshes& adjacency) {
     report.boundsWorld.include(
         glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[index]), 1.0)));
   }
+  const scene::Bounds boundsObject = scene::boundsOf(mesh);
+  report.radiusObject = boundsObject.radius();
+  double largest = 0.0;
+  for (int axis = 0; axis < 3; ++axis) {
+    largest = std::max({largest, std::abs(boundsObject.low[axis]), std::abs(boundsObject.high[axis])});
+  }
+  const auto asFloat = static_cast<float>(largest);
+  report.coordinateStep =
+      std::nextafter(asFloat, std::numeric_limits<float>::infinity()) - static_cast<double>(asFloat);
   const glm::dvec3 origin(mesh.positions[mesh.indices.front()]);  // near the mesh: no cancellation far from 0
   for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
     const glm::dvec3 a = glm::dvec3(mesh.positions[mesh.indices[i]]) - origin;
@@ -115,9 +129,6 @@ void addObjectWarnings(ObjectReport& report) {
         counted(report.boundaryEdges, "boundary edge", "boundary edges") +
         "): techniques that use silhouettes count its sides apart; close the holes or give it thickness");
   }
-  if (report.casts && report.closed && report.signedVolumeWorld < 0.0) {
-    report.warnings.push_back("the caster is wound inside out (negative volume): reverse its triangles");
-  }
   if (report.looseParts > 0) {
     report.warnings.push_back(
         counted(report.looseParts, "part hangs", "parts hang") +
@@ -131,14 +142,37 @@ void addObjectWarnings(ObjectReport& report) {
     report.warnings.push_back(std::to_string(report.degenerateDropped) + " zero-area and " +
                               std::to_string(report.duplicateDropped) + " duplicate triangles were dropped");
   }
-  const double size = report.boundsWorld.radius();
-  const double away = glm::length(report.boundsWorld.center());
-  // 1e5 radii: a float position (24 bits) then has 7 bits left for the object itself.
-  if (size > 0.0 && away > 1e5 * size) {
+  // Half a step is the most a vertex is displaced: beyond a thousandth of the radius facets are seen to tilt.
+  if (report.coordinateStep > 2e-3 * report.radiusObject) {
     report.warnings.push_back(
-        "the object is " + short4(away / size) +
-        " times its radius away from the origin: positions lose precision; move it nearer");
+        "single precision moves the object's vertices in steps of " + short4(report.coordinateStep) + ", " +
+        short4(report.coordinateStep / report.radiusObject) +
+        " of its radius, as far from the origin of its own coordinates as they are: its "
+        "shape is no longer what was modelled; keep the vertices near that origin and "
+        "place them by the node's transform");
   }
+}
+/// A light sees all its casters through one map of this many texels a side.
+constexpr double kMapTexels = 1024.0;
+/// What a filter needs of a caster to tell it from its neighbours.
+constexpr double kLeastTexels = 4.0;
+
+void addCasterWarnings(ValidationReport& report) {
+  double smallest = std::numeric_limits<double>::infinity();
+  const std::string* name = nullptr;
+  for (const ObjectReport& object : report.objects) {
+    const double radius = object.boundsWorld.radius();
+    if (!object.casts || !(radius > 0.0) || radius >= smallest) continue;
+    smallest = radius;
+    name = &object.name;
+  }
+  const double all = report.casterBoundsWorld.radius();
+  if (name == nullptr || kMapTexels * smallest >= kLeastTexels * all) return;
+  report.warnings.push_back(
+      "the casters together are " + short4(all / smallest) + " times as large as \"" + *name +
+      "\", which is " + short4(kMapTexels * smallest / all) +
+      " texels of a shadow map of 1024: use a technique without maps (wedges-cells), or "
+      "let what is far away cast nothing");
 }
 }  // namespace
 
@@ -163,18 +197,7 @@ ValidationReport validateScene(const scene::SceneDescription& description) {
   }
   if (report.casters == 0) report.warnings.push_back("no object casts: every technique answers fully lit");
   if (receivers == 0) report.warnings.push_back("no object receives: there is nothing to ask visibility on");
-  const double radius = report.boundsWorld.radius();
-  if (radius > 1e5 || (radius > 0.0 && radius < 1e-4)) {
-    report.warnings.push_back(
-        "the scene's radius is " + short4(radius) +
-        " units: scale it to between 0.0001 and 100000 so that depths keep their precision");
-  }
-  const double casterRadius = report.casterBoundsWorld.radius();
-  // 1e3: a 1024-texel map stretched over everything would give the casters about one texel.
-  if (casterRadius > 0.0 && radius > 1e3 * casterRadius) {
-    report.warnings.push_back("the scene is " + short4(radius / casterRadius) +
-                              " times larger than its casters: fit maps to the casters, not to the scene");
-  }
+  addCasterWarnings(report);
   return report;
 }
 

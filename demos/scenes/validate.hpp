@@ -30,7 +30,10 @@ struct ObjectReport {
   std::uint32_t filledGaps = 0;
   std::uint32_t degenerateDropped = 0;
   std::uint32_t duplicateDropped = 0;
-  double signedVolumeWorld = 0.0;  ///< positive when closed and wound outward
+  std::uint32_t turnedTriangles = 0;  ///< of closed shells that were wound inward, or not alike
+  double signedVolumeWorld = 0.0;     ///< positive when closed, as mended
+  double radiusObject = 0.0;          ///< in its own coordinates
+  double coordinateStep = 0.0;        ///< of single precision at its largest coordinate
   scene::Bounds boundsWorld;
   bool casts = true;
   bool receives = true;
@@ -48,7 +51,7 @@ struct ValidationReport {
   std::uint32_t openCasters = 0;      ///< with sheets
   std::uint32_t repairedCasters = 0;  ///< whose adjacency needed mending
   std::uint32_t casterParts = 0;      ///< of all casters
-  std::vector<std::string> warnings;  ///< about the whole scene, e.g. extreme scale; loader notes come first
+  std::vector<std::string> warnings;  ///< about the whole scene; loader notes come first
 };
 
 /// Never fails: a scene that was loaded can be described.

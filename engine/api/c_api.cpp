@@ -114,6 +114,7 @@ HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const Halfshadow
     copy(lights[i].emission, descs[i].emission);
     copy(lights[i].color, descs[i].color);
     descs[i].intensity = lights[i].intensity;
+    descs[i].referenceDistance = lights[i].reference_distance;
   }
   return finish(engine, engine->engine->setLights(descs, count));
 }

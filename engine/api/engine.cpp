@@ -154,8 +154,13 @@ Outcome Engine::setLights(const LightDesc* lights, std::size_t count) {
     }
     light->color = {desc.color[0], desc.color[1], desc.color[2]};
     light->intensity = desc.intensity;
+    light->referenceDistance = desc.referenceDistance;
     if (!std::isfinite(desc.color[0] + desc.color[1] + desc.color[2] + desc.intensity)) {
       return state.fail({ErrorCode::invalidLight, "the light's colour or intensity is not finite"});
+    }
+    if (!std::isfinite(desc.referenceDistance) || desc.referenceDistance < 0.0) {
+      return state.fail(
+          {ErrorCode::invalidLight, "the light's reference distance is negative or not finite"});
     }
     checked.push_back(*light);
   }

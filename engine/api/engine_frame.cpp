@@ -21,11 +21,6 @@ scene::Camera toCamera(const CameraDesc& desc) {
           .farDistance = desc.farDistance};
 }
 
-double nearReach(const scene::Camera& camera, double aspect) {
-  const double tangent = std::tan(0.5 * camera.verticalFovRadians);
-  return camera.nearDistance * std::sqrt(1.0 + tangent * tangent * (1.0 + aspect * aspect));
-}
-
 Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
   const int limit = std::min(limits.textureSize, limits.renderbufferSize);
   if (target.width <= 0 || target.height <= 0) {
@@ -120,14 +115,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   FrameLight& target = frame.lights[index];
   LightCache& cache = lightCaches[index];
   const int mapSize = settings->integer("map_size");
-  scene::Bounds casterBounds;
-  for (const std::uint32_t i : plan.casters) {
-    target.casters.push_back(drawItem(*sceneObjects[i]));
-    casterBounds.include(scene::transformed(sceneObjects[i]->worldFromObject, sceneObjects[i]->boundsObject));
-  }
-  target.referenceDistance =
-      casterBounds.empty() ? std::max(glm::length(light.centerWorld - toVector(desc.camera.target)), 1e-6)
-                           : std::max(glm::length(light.centerWorld - casterBounds.center()), 1e-6);
+  for (const std::uint32_t i : plan.casters) target.casters.push_back(drawItem(*sceneObjects[i]));
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
     for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
@@ -143,9 +131,13 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
     used = techniqueNamed("none");
   }
   double farthest = 0.0;
-  for (const EngineObject* object : sceneObjects) {
+  std::vector<bool> isCaster(sceneObjects.size(), false);
+  for (const std::uint32_t i : plan.casters) isCaster[i] = true;
+  for (std::size_t i = 0; i < sceneObjects.size(); ++i) {
+    const EngineObject* object = sceneObjects[i];
     if (!object->receives) continue;
-    if (!object->casts) target.shadowlessReceivers.push_back(drawItem(*object));
+    // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
+    if (!isCaster[i]) target.shadowlessReceivers.push_back(drawItem(*object));
     farthest =
         std::max(farthest, api::receiverFarDistance(
                                cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
@@ -235,9 +227,7 @@ Status Engine::State::declareReceiverPasses(Frame& frame, const RenderDesc& desc
   }
   frame.color = targets.front().resource;
   frame.graph.markOutput(frame.color);
-  for (std::size_t i = 0; i < lights.size(); ++i) {
-    frame.shadingInputs.lights.push_back({&lights[i], frame.lights[i].referenceDistance});
-  }
+  for (const scene::AreaLight& light : lights) frame.shadingInputs.lights.push_back(&light);
   if (desc.output != Output::shaded || lights.size() == 1) {
     declareVisibilityPass(frame, desc, std::move(targets));
     return {};
@@ -282,7 +272,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                  .eyeWorld = camera.eyeWorld,
                  .width = desc.target.width,
                  .height = desc.target.height,
-                 .nearReach = nearReach(camera, aspect)};
+                 .nearReach = scene::nearReach(camera, aspect)};
 
   std::vector<const EngineObject*> sceneObjects;
   std::vector<planner::PlannedObject> planned;
@@ -293,7 +283,10 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                        .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
                        .revision = object.revision,
                        .casts = object.casts,
-                       .receives = object.receives});
+                       .receives = object.receives,
+                       .mesh = &object.mesh,
+                       .support = &object.support(),
+                       .worldFromObject = object.worldFromObject});
     sceneRevision = planner::combineKeys(sceneRevision, object.revision);
   }
   const planner::FramePlan framePlan = planner.plan({.objects = planned,

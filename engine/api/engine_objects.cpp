@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include <cmath>
 #include <cstring>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
@@ -68,6 +69,16 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
 }
 }  // namespace
 
+void EngineObject::place(const glm::dmat4& worldFromHostNow) {
+  worldFromHost = worldFromHostNow;
+  worldFromObject = glm::translate(worldFromHost, recenteredBy);
+}
+
+const scene::SupportingPlanes& EngineObject::support() const {
+  if (!supportingPlanes) supportingPlanes = scene::supportingPlanesOf(mesh, recenteredBy);
+  return *supportingPlanes;
+}
+
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   State& state = *state_;
   id = 0;
@@ -79,6 +90,7 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   if (!transform) return state.fail(transform.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   EngineObject object;
+  object.recenteredBy = scene::recenter(*mesh);
   auto gpu = techniques::GpuMesh::create(*state.context, *mesh);
   if (!gpu) return state.fail(gpu.error());
   object.gpu = std::move(gpu).value();
@@ -89,7 +101,7 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   }
   object.mesh = std::move(mesh).value();
   object.boundsObject = scene::boundsOf(object.mesh);
-  object.worldFromObject = *transform;
+  object.place(*transform);
   object.casts = desc.casts;
   object.receives = desc.receives;
   object.baseColor = glm::make_vec4(desc.baseColor);
@@ -105,8 +117,8 @@ Outcome Engine::setTransform(ObjectId id, const double worldFromObject[16]) {
   if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
   auto transform = checkedTransform(worldFromObject);
   if (!transform) return state.fail(transform.error());
-  if (found->second.worldFromObject == *transform) return {};
-  found->second.worldFromObject = *transform;
+  if (found->second.worldFromHost == *transform) return {};
+  found->second.place(*transform);
   found->second.revision = state.nextRevision++;
   return {};
 }
@@ -135,14 +147,24 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
     }
   }
   object.mesh.positions = std::move(positions);
+  object.recenteredBy = scene::recenter(object.mesh);
+  object.place(object.worldFromHost);
   object.geometry.positionsChanged();
+  object.supportingPlanes.reset();
   if (desc.normals && !object.mesh.normals.empty()) {
     for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
       object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
   }
   gl::HostStateGuard guard(*state.context, state.policy());
-  const Status updated = object.gpu.update(*state.context, object.mesh);
-  if (!updated) return state.fail(updated.error());
+  if (scene::turnShellsOutward(object.mesh)) {
+    // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
+    auto gpu = techniques::GpuMesh::create(*state.context, object.mesh);
+    if (!gpu) return state.fail(gpu.error());
+    object.gpu = std::move(gpu).value();
+    object.geometry = {};
+  } else if (const Status updated = object.gpu.update(*state.context, object.mesh); !updated) {
+    return state.fail(updated.error());
+  }
   object.boundsObject = scene::boundsOf(object.mesh);
   object.revision = state.nextRevision++;
   return {};

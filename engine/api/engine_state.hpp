@@ -6,6 +6,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,15 +25,22 @@
 namespace halfshadow {
 
 struct EngineObject {
-  scene::TriangleMesh mesh;  ///< kept for bounds, tight light fits and silhouettes
+  scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
   scene::CasterGeometry geometry;
   techniques::GpuMesh gpu;
-  glm::dmat4 worldFromObject{1.0};
+  glm::dmat4 worldFromHost{1.0};    ///< as the host placed the positions that it gave
+  glm::dvec3 recenteredBy{0.0};     ///< what was taken off those
+  glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
   scene::Bounds boundsObject;
+  /// Sets worldFromObject; recenteredBy is set before.
+  void place(const glm::dmat4& worldFromHostNow);
+  /// Of the positions there are now; found on the first call.
+  const scene::SupportingPlanes& support() const;
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
   gl::Texture baseColorTexture;
   std::uint64_t revision = 0;
+  mutable std::optional<scene::SupportingPlanes> supportingPlanes;  ///< see support()
 };
 
 /// What is kept of a light between frames.
@@ -57,7 +65,6 @@ struct FrameLight {
   std::vector<techniques::DrawItem> casters;
   std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
-  double referenceDistance = 1.0;
   techniques::ReceiverProgramSet programs;
 };
 

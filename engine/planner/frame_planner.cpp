@@ -3,8 +3,10 @@
 #include "planner/frame_planner.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "planner/light_space.hpp"
+#include "planner/separation.hpp"
 
 namespace halfshadow::planner {
 namespace {
@@ -36,11 +38,19 @@ void sortFrontToBack(const FrameInput& input, std::vector<std::uint32_t>& receiv
   std::ranges::stable_sort(receivers, {}, [&](std::uint32_t i) { return nearest[i]; });
 }
 
-bool shadowsAny(const FrameInput& input, const scene::AreaLight& light, std::uint32_t caster,
-                const std::vector<std::uint32_t>& receivers) {
-  return std::any_of(receivers.begin(), receivers.end(), [&](std::uint32_t receiver) {
-    return shadowRegionMeets(light, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld);
-  });
+/// What keeps a caster from all of `receivers`; nothing when it can shadow one of them.
+std::optional<SkipReason> apartFrom(const FrameInput& input, const scene::AreaLight& light,
+                                    Separation& separation, std::uint32_t caster,
+                                    const std::vector<std::uint32_t>& receivers) {
+  SkipReason reason = SkipReason::noReceiverBehind;
+  for (const std::uint32_t receiver : receivers) {
+    if (!shadowRegionMeets(light, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld)) {
+      continue;
+    }
+    if (!separation.cannotShadow(caster, receiver)) return std::nullopt;
+    reason = SkipReason::nothingBeyond;
+  }
+  return reason;
 }
 
 std::uint64_t keyOf(const FrameInput& input, std::uint64_t lightRevision,
@@ -62,8 +72,10 @@ std::uint64_t castersRevision(const FrameInput& input) {
 
 std::uint64_t sceneRevision(const FrameInput& input) {
   std::uint64_t revision = kKeySeed;
-  for (const PlannedObject& object : input.objects) {
-    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
+    const PlannedObject& object = input.objects[i];
+    const bool within = object.support != nullptr && object.support->convex && maySeeInside(input, i);
+    const std::uint64_t roles = (within ? 4u : 0u) + (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
     revision = combineKeys(combineKeys(combineKeys(revision, object.id), object.revision), roles);
   }
   return revision;
@@ -117,13 +129,14 @@ void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, cons
   history.relevant.clear();
   history.irrelevant.clear();
   const LightSpace space = lightSpace(input.lights[light]);
+  Separation separation(input, input.lights[light]);
   for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
     const PlannedObject& object = input.objects[i];
     if (!object.casts || object.boundsWorld.empty()) continue;
     if (space.boundsLight(object.boundsWorld).high.z <= 0.0) {
       history.irrelevant.push_back({casterName(input, i, light), SkipReason::behindLight});
-    } else if (!shadowsAny(input, input.lights[light], i, receivers.all)) {
-      history.irrelevant.push_back({casterName(input, i, light), SkipReason::noReceiverBehind});
+    } else if (const auto apart = apartFrom(input, input.lights[light], separation, i, receivers.all)) {
+      history.irrelevant.push_back({casterName(input, i, light), *apart});
     } else {
       history.relevant.push_back(i);
     }
@@ -154,8 +167,9 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
   std::vector<std::uint32_t> needed = history.relevant, outOfView;
   if (dynamic || history.reduced) {
+    Separation separation(input, input.lights[light]);
     const auto split = std::stable_partition(needed.begin(), needed.end(), [&](std::uint32_t caster) {
-      return shadowsAny(input, input.lights[light], caster, receivers.visible);
+      return !apartFrom(input, input.lights[light], separation, caster, receivers.visible);
     });
     outOfView.assign(split, needed.end());
     needed.erase(split, needed.end());

@@ -16,6 +16,7 @@
 #include "scene/bounds.hpp"
 #include "scene/camera.hpp"
 #include "scene/light.hpp"
+#include "scene/supporting_planes.hpp"
 
 namespace halfshadow::planner {
 
@@ -24,6 +25,7 @@ namespace halfshadow::planner {
   X(unchanged, "unchanged", "its inputs have the same revisions as when it was last made")             \
   X(behindLight, "behind-light", "the caster lies wholly behind the light's plane")                    \
   X(noReceiverBehind, "no-receiver-behind", "no receiver lies in the caster's shadow region")          \
+  X(nothingBeyond, "nothing-beyond", "no receiver lies beyond the caster, seen from the light")        \
   X(shadowOutOfView, "shadow-out-of-view", "the caster's shadow region misses every visible receiver") \
   X(receiverOutOfView, "receiver-out-of-view", "the receiver lies outside the camera's view")          \
   X(noCasters, "no-casters", "no caster can shadow a receiver")                                        \
@@ -44,6 +46,10 @@ struct PlannedObject {
   scene::Bounds boundsWorld;
   std::uint64_t revision = 0;
   bool casts = true, receives = true;
+  /// Its shape, all three or none: with them more casters are known to shadow nothing (see separation.hpp).
+  const scene::TriangleMesh* mesh = nullptr;
+  const scene::SupportingPlanes* support = nullptr;
+  glm::dmat4 worldFromObject{1.0};
 };
 
 struct FrameInput {
@@ -74,9 +80,10 @@ struct FramePlan {
 /// Keeps, per light, which casters the cached light view holds.
 ///
 /// Static casters and light: the view is made from every caster that can shadow any receiver, whatever the
-/// camera sees, so that a camera-only move changes no key. While a caster or the light changes in two frames
-/// running (the view is remade anyway), casters whose shadow region misses all visible receivers are dropped
-/// too; when the movement ends and the camera needs a dropped caster, the view is remade once.
+/// camera sees, so that a camera-only move changes no key, unless the camera enters or leaves a caster. While
+/// a caster or the light changes in two frames running (the view is remade anyway), casters whose shadow
+/// region misses all visible receivers are dropped too; when the movement ends and the camera needs a dropped
+/// caster, the view is remade once.
 class FramePlanner {
  public:
   FramePlan plan(const FrameInput& input);
@@ -90,7 +97,8 @@ class FramePlanner {
     std::vector<std::uint32_t> drawnIds;
     std::uint64_t key = 0;
     bool reduced = false;  ///< the view lacks casters that no visible receiver needed
-    // Relevance does not depend on the camera: searched again only when the scene or the light changes.
+    // Relevance depends on the camera only where that is inside a caster: searched again only when this, the
+    // scene or the light changes.
     std::uint64_t sceneRevision = 0;
     std::vector<std::uint32_t> relevant;
     std::vector<Skip> irrelevant;

@@ -59,6 +59,12 @@ glm::dmat4 clipFromView(const Camera& camera, double aspectWidthOverHeight) {
                           camera.farDistance);
 }
 
+double nearReach(const Camera& camera, double aspectWidthOverHeight) {
+  const double tangent = std::tan(0.5 * camera.verticalFovRadians);
+  return camera.nearDistance *
+         std::sqrt(1.0 + tangent * tangent * (1.0 + aspectWidthOverHeight * aspectWidthOverHeight));
+}
+
 glm::dvec3 pixelRayWorld(const Camera& camera, int width, int height, double x, double y) {
   const Frame f = cameraFrame(camera);
   const double tanHalf = std::tan(camera.verticalFovRadians / 2);

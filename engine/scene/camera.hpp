@@ -27,6 +27,9 @@ glm::dmat4 viewFromWorld(const Camera& camera);
 /// OpenGL clip space, depth -1 … 1.
 glm::dmat4 clipFromView(const Camera& camera, double aspectWidthOverHeight);
 
+/// From the eye to the near plane's corners, world units.
+double nearReach(const Camera& camera, double aspectWidthOverHeight);
+
 /// Unit direction in world space through the centre of pixel (x, y) of a width × height image; row 0 on top.
 glm::dvec3 pixelRayWorld(const Camera& camera, int width, int height, double x, double y);
 

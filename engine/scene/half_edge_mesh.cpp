@@ -70,6 +70,10 @@ HalfEdgeMesh HalfEdgeMesh::build(const TriangleMesh& mesh) {
     }
     faces[i / 3][i % 3] = compact[source];
   }
+  // Parts are told by the windings of the source: what was inward there is remembered.
+  for (std::size_t t = 0; t < mesh.turned.size(); ++t) {
+    if (mesh.turned[t]) std::swap(faces[t].y, faces[t].z);
+  }
   result.copyPositions(mesh);
   for (const RepairedPart& part : repairParts(std::move(faces), result.positions_, result.repairs_)) {
     result.addPart(part.faces, part.facts);

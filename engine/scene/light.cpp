@@ -48,6 +48,11 @@ Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld,
   if (sizeU < 0.0 || sizeV < 0.0) {
     return Error{ErrorCode::invalidLight, "the light's size is negative; give full side lengths >= 0"};
   }
+  if ((sizeU == 0.0) != (sizeV == 0.0)) {
+    return Error{ErrorCode::invalidLight,
+                 "one side of the light is zero, a line has no side to shine to; give two positive lengths, "
+                 "or 0x0 for a point"};
+  }
   const glm::dvec3 aim = targetWorld - centerWorld;
   if (glm::length(aim) == 0.0) {
     return Error{ErrorCode::invalidLight, "the light's target equals its centre; move one of them"};
@@ -58,8 +63,11 @@ Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld,
     side = glm::cross(leastAlignedAxis(n), n);
   const glm::dvec3 u = glm::normalize(side);
   const glm::dvec3 v = glm::cross(n, u);
-  return AreaLight{
-      .centerWorld = centerWorld, .halfU = u * (sizeU / 2), .halfV = v * (sizeV / 2), .emission = n};
+  return AreaLight{.centerWorld = centerWorld,
+                   .halfU = u * (sizeU / 2),
+                   .halfV = v * (sizeV / 2),
+                   .emission = n,
+                   .referenceDistance = glm::length(aim)};
 }
 
 glm::dvec3 emissionDirection(const AreaLight& light) {

@@ -6,11 +6,15 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
-#include <limits>
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+
+#include "scene/bounds.hpp"
+#include "scene/edge_uses.hpp"
+#include "scene/windings.hpp"
 
 namespace halfshadow::scene {
 namespace {
@@ -74,24 +78,25 @@ Corners rotatedToSmallestFirst(const Corners& c) {
   return {c[first], c[(first + 1) % 3], c[(first + 2) % 3]};
 }
 
-/// Counts directed edges per undirected welded edge. An edge is boundary where its two directions differ.
-void countEdges(TriangleMesh& mesh) {
-  struct Uses {
-    std::uint32_t forward = 0, backward = 0;
-  };
-  std::unordered_map<std::uint64_t, Uses> edges;
-  edges.reserve(mesh.indices.size() / 2 + 16);
+std::vector<EdgeUse> weldedEdgeUses(const TriangleMesh& mesh) {
+  std::vector<glm::uvec3> faces(mesh.triangleCount());
   for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
-    const std::size_t next = i % 3 == 2 ? i - 2 : i + 1;
-    const std::uint64_t a = mesh.weldedVertex[mesh.indices[i]], b = mesh.weldedVertex[mesh.indices[next]];
-    Uses& uses = edges[a < b ? a << 32 | b : b << 32 | a];
-    ++(a < b ? uses.forward : uses.backward);
+    faces[i / 3][static_cast<int>(i % 3)] = mesh.weldedVertex[mesh.indices[i]];
   }
-  for (const auto& [key, uses] : edges) {
-    mesh.statistics.boundaryEdges +=
-        std::max(uses.forward, uses.backward) - std::min(uses.forward, uses.backward);
-    if (uses.forward + uses.backward > 2) ++mesh.statistics.nonManifoldEdges;
-  }
+  return edgeUses(faces);
+}
+
+/// An edge is boundary where its two directions differ. `uses` are of the windings before they were mended.
+void countEdges(TriangleMesh& mesh, std::span<const EdgeUse> uses) {
+  forEachEdge(uses, [&](std::span<const EdgeUse> edge) {
+    int sum = 0;
+    for (const EdgeUse& use : edge) {
+      const bool turned = !mesh.turned.empty() && mesh.turned[use.face] != 0;
+      sum += use.forward != turned ? 1 : -1;
+    }
+    mesh.statistics.boundaryEdges += static_cast<std::uint32_t>(std::abs(sum));
+    mesh.statistics.nonManifoldEdges += edge.size() > 2;
+  });
 }
 }  // namespace
 
@@ -141,8 +146,24 @@ Result<TriangleMesh> buildMesh(const MeshView& view) {
     const auto* t = reinterpret_cast<const glm::vec2*>(view.texcoords);
     mesh.texcoords.assign(t, t + view.vertexCount);
   }
-  countEdges(mesh);
+  const std::vector<EdgeUse> uses = weldedEdgeUses(mesh);
+  mendWindings(mesh, uses);
+  countEdges(mesh, uses);
   return mesh;
+}
+
+glm::dvec3 recenter(TriangleMesh& mesh) {
+  const Bounds bounds = boundsOf(mesh);
+  glm::vec3 center(0.0f);
+  for (int axis = 0; axis < 3; ++axis) {
+    const double low = bounds.low[axis], high = bounds.high[axis];
+    const double nearSide = std::min(std::abs(low), std::abs(high)),
+                 farSide = std::max(std::abs(low), std::abs(high));
+    if (low * high > 0.0 && farSide <= 2.0 * nearSide) center[axis] = static_cast<float>(0.5 * (low + high));
+  }
+  if (center == glm::vec3(0.0f)) return glm::dvec3(0.0);
+  for (glm::vec3& position : mesh.positions) position -= center;
+  return glm::dvec3(center);
 }
 
 }  // namespace halfshadow::scene

@@ -15,8 +15,8 @@ namespace halfshadow::scene {
 
 /// A caller's triangle list, read once by buildMesh and never kept.
 /// `positions`: vertexCount × 3 floats, object space, scene units; `positionStrideBytes` from one vertex to
-/// the next (>= 12). `indices`: indexCount entries, a multiple of 3, counter-clockwise seen from outside;
-/// null = 0, 1, 2, … (as many as indexCount says, or all vertices when that is 0). `normals` (unit, optional)
+/// the next (>= 12). `indices`: indexCount entries, a multiple of 3, in either winding; null = 0, 1, 2, … (as
+/// many as indexCount says, or all vertices when that is 0). `normals` (unit, optional)
 /// and `texcoords` (optional) are tightly packed, vertexCount entries each.
 struct MeshView {
   const float* positions = nullptr;
@@ -32,27 +32,41 @@ struct MeshView {
 struct MeshStatistics {
   std::uint32_t degenerateTrianglesDropped = 0;  ///< zero area or a repeated index
   std::uint32_t duplicateTrianglesDropped = 0;   ///< same three corners (same winding) as an earlier one
-  std::uint32_t boundaryEdges = 0;     ///< directed edges without their opposite, welded by position
+  std::uint32_t boundaryEdges = 0;     ///< directed edges without their opposite, welded, windings mended
   std::uint32_t nonManifoldEdges = 0;  ///< undirected edges with more than two triangles
   bool closed() const { return boundaryEdges == 0; }
 };
 
-/// A checked triangle mesh: every index is in range, every position finite, no zero-area triangle.
-/// Vertices keep their attributes (not welded); `weldedVertex` maps each vertex to the first vertex with
-/// bitwise equal position, for adjacency.
+inline constexpr std::uint32_t kNoShell = ~0u;
+
+/// A checked triangle mesh: every index is in range, every position finite, no zero-area triangle, closed
+/// shells wound alike and outward (see windings.hpp). Vertices keep their attributes (not welded);
+/// `weldedVertex` maps each vertex to the first vertex with bitwise equal position, for adjacency.
 struct TriangleMesh {
   std::vector<glm::vec3> positions;
   std::vector<std::uint32_t> indices;
   std::vector<glm::vec3> normals;    ///< empty or one per vertex
   std::vector<glm::vec2> texcoords;  ///< empty or one per vertex
   std::vector<std::uint32_t> weldedVertex;
+  std::vector<std::uint32_t> shellOf;  ///< per triangle: its closed shell, or kNoShell
+  std::uint32_t shellCount = 0;
+  std::vector<std::uint8_t> turned;  ///< per triangle: the source wound it the other way; empty = none
   MeshStatistics statistics;
   std::uint32_t triangleCount() const { return static_cast<std::uint32_t>(indices.size() / 3); }
 };
 
-/// Copies, checks and cleans a mesh. Errors: invalidMesh (index out of range, index count not a multiple
-/// of 3, NaN or infinite position — the message names the first offending element), emptyScene (nothing
-/// left).
+/// Copies, checks and cleans a mesh and mends its windings. Errors: invalidMesh (index out of range, index
+/// count not a multiple of 3, NaN or infinite position — the message names the first offending element),
+/// emptyScene (nothing left).
 Result<TriangleMesh> buildMesh(const MeshView& view);
+
+/// Moves the triangles' box to the origin, along each axis on which its far side is at most twice as far from
+/// there as its near side: then every difference is exact in float (Sterbenz), so that the shape stays as it
+/// is while what is computed from the positions keeps all their digits. Returns what was subtracted.
+glm::dvec3 recenter(TriangleMesh& mesh);
+
+/// Winds each closed shell outward again after its positions were replaced (a pose may mirror it). True when
+/// any triangle was turned.
+bool turnShellsOutward(TriangleMesh& mesh);
 
 }  // namespace halfshadow::scene

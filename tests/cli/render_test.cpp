@@ -80,6 +80,34 @@ TEST_F(CliTest, AnAnimatedFileIsPosedPerFrame) {
   EXPECT_NE(readImage(path("v_0001.exr")).pixels, readImage(path("still.exr")).pixels);
 }
 
+TEST_F(CliTest, APictureOfNothingIsAnError) {
+  const std::string away = "eye=0,3,10 target=0,9,20";
+  expectFailure(renderBox({"-o", path("a.png"), "--camera", away}), 1, {"empty", "--camera"});
+  expectFailure(renderBox({"--visibility", path("v.exr"), "--camera", away}), 1, {"empty", "--camera"});
+  expectFailure({"measure", "builtin:box", "-t", "hard", "--samples", "16", "--size", "32x24", "--frames",
+                 "0", "--camera", away},
+                1, {"nothing to measure"});
+  // One colour all over, but a surface.
+  runJson(renderBox({"--visibility", path("v.exr"), "--camera", "eye=15,3,0 target=15,0,0.1", "-t", "none"}));
+}
+
+TEST_F(CliTest, BrightnessDependsOnTheLightAlone) {
+  // The pixels that a raised box leaves lit keep their colour, whatever it is that casts.
+  const std::string camera = "eye=9,9,9 target=4,0,4 fov=20",
+                    light = "center=2,9,1 target=0,0,0 size=0.2x0.2";
+  std::vector<float> first;
+  for (const char* scene : {"builtin:box", "builtin:spheres27", "builtin:bars"}) {
+    for (const char* technique : {"hard", "none"}) {
+      runJson({"render", scene, "-o", path("a.png"), "--size", "32x24", "-t", technique, "--camera", camera,
+               "--light", light});
+      const std::vector<float> pixels = readImage(path("a.png")).pixels;
+      const std::vector<float> bottomRow(pixels.end() - 96, pixels.end());
+      if (first.empty()) first = bottomRow;
+      EXPECT_EQ(bottomRow, first) << scene;
+    }
+  }
+}
+
 TEST_F(CliTest, CameraLightAndGroundOptionsChangeTheImage) {
   const std::vector<std::vector<std::string>> variants{{},
                                                        {"--camera", "eye=5,6,7 target=0,1,0 fov=40"},

@@ -66,6 +66,16 @@ TEST(LightOption, ReadsTheVectorForm) {
   EXPECT_EQ(light->emission, glm::dvec3(0, -1, 0));
 }
 
+TEST(LightOption, ALightOfNoSizeShinesToASideOfItsOwn) {
+  const auto down = parseLight("center=1,2,3 u=0,0,0 v=0,0,0");
+  ASSERT_TRUE(down.ok());
+  EXPECT_EQ(down->emission, glm::dvec3(0, -1, 0));
+  const auto aimed = parseLight("center=0,0,0 target=0,0,7 size=0x0");
+  ASSERT_TRUE(aimed.ok());
+  EXPECT_EQ(aimed->halfU, glm::dvec3(0.0));
+  EXPECT_EQ(aimed->emission, glm::dvec3(0, 0, 1));
+}
+
 TEST(LightOption, QuotesWhatIsWrong) {
   struct Case {
     const char *text, *quoted;
@@ -77,6 +87,8 @@ TEST(LightOption, QuotesWhatIsWrong) {
                         {"center=0,5,0 target=0,0,0 size=-1x1", "negative"},
                         {"center=0,5,0 u=1,0,0", "v=x,y,z"},
                         {"center=0,5,0 u=1,0,0 v=2,0,0", "parallel"},
+                        {"center=0,5,0 u=1,0,0 v=0,0,0", "zero"},
+                        {"center=0,5,0 target=0,0,0 size=2x0", "line"},
                         {"center=0,5,0 u=1,0,0 v=0,0,1 size=1x1", "mixed"},
                         {"center=0,5,0 target=0,5,0 size=1x1", "target"},
                         {"hello", "hello"}}) {

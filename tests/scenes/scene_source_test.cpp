@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 #include <glm/trigonometric.hpp>
+#include <memory>
 
 #include "gltf_writer.hpp"
 
@@ -101,7 +103,113 @@ TEST(SceneSource, ACameraInsideTheSceneStillHasANearPlane) {
   const scene::Camera inside{.eyeWorld = {0, 1.8, 0}, .targetWorld = {1, 1.8, 0}};
   const scene::SceneDescription description = opened("builtin:box", {.camera = inside});
   EXPECT_GT(description.camera->nearDistance, 0.0);
-  EXPECT_LT(description.camera->nearDistance, 0.1) << "0.35 is the box's nearest wall";
+  EXPECT_LT(description.camera->nearDistance, 0.6) << "the wall ahead";
+}
+
+/// One object a call: triangles of its own, casting and receiving.
+class SceneOf {
+ public:
+  SceneOf& add(const std::vector<float>& positions, const std::vector<std::uint32_t>& indices,
+               const glm::dvec3& place = glm::dvec3(0.0)) {
+    const auto mesh = scene::buildMesh({.positions = positions.data(),
+                                        .vertexCount = static_cast<std::uint32_t>(positions.size() / 3),
+                                        .indices = indices.data(),
+                                        .indexCount = indices.size()});
+    EXPECT_TRUE(mesh.ok());
+    description_.objects.push_back({.name = "object " + std::to_string(description_.objects.size()),
+                                    .mesh = std::make_shared<const scene::TriangleMesh>(*mesh),
+                                    .worldFromObject = glm::translate(glm::dmat4(1.0), place)});
+    return *this;
+  }
+  SceneOf& addBox(const glm::vec3& low, const glm::vec3& high, const glm::dvec3& place = glm::dvec3(0.0)) {
+    std::vector<float> positions;
+    for (unsigned i = 0; i < 8; ++i) {
+      positions.insert(positions.end(),
+                       {i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z});
+    }
+    return add(positions, {0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                           2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5},
+               place);
+  }
+  SceneOf& addSheet(float half, float y) {
+    return add({-half, y, -half, half, y, -half, -half, y, half, half, y, half}, {0, 1, 2, 1, 3, 2});
+  }
+  scene::SceneDescription completed(const SceneOptions& options = {}) {
+    scene::SceneDescription copy = description_;
+    const Status status = completeScene(copy, options);
+    EXPECT_TRUE(status.ok()) << (status.ok() ? "" : status.error().message);
+    return copy;
+  }
+
+ private:
+  scene::SceneDescription description_{.name = "test"};
+};
+
+scene::AreaLight lightAt(const glm::dvec3& center) {
+  return *scene::areaLightAimed(center, {0, 0, 0}, 0.5, 0.5, {0.2, 0.1, 1.0});
+}
+
+TEST(AddedGround, NeverLiesInASurfaceThatIsSeen) {
+  // A sheet alone, a tray with a rim, and a room seen from inside: each is its own floor.
+  EXPECT_EQ(groundOf(SceneOf().addSheet(1, 0).completed()), nullptr);
+  SceneOf tray;
+  tray.add({-2, 0, -2, 2, 0, -2, -2, 0, 2, 2, 0, 2, -2, 1, -2, 2, 1, -2},
+           {0, 2, 1, 1, 2, 3, 0, 1, 4, 1, 5, 4});
+  EXPECT_EQ(groundOf(tray.completed()), nullptr);
+  SceneOf room;
+  room.addBox({-3, 0, -3}, {3, 3, 3}).addBox({-1, 0, -1}, {0, 1, 0});
+  const scene::Camera inside{.eyeWorld = {2, 1.5, 2}, .targetWorld = {0, 0.5, 0}};
+  EXPECT_EQ(groundOf(room.completed({.camera = inside, .light = lightAt({1, 2.5, 0})})), nullptr);
+  // Asked for, it is there, but below the floor.
+  const auto asked = tray.completed({.ground = GroundMode::on});
+  ASSERT_NE(groundOf(asked), nullptr);
+  EXPECT_LT(groundOf(asked)->worldFromObject[3].y, 0.0);
+  // A small mat is no floor: the ground is a little below it.
+  SceneOf mat;
+  mat.addBox({-9, 0, -9}, {-7, 3, 9}).addSheet(2.0f, 0.0f);
+  const auto withMat = mat.completed();
+  ASSERT_NE(groundOf(withMat), nullptr);
+  EXPECT_LT(groundOf(withMat)->worldFromObject[3].y, 0.0);
+  EXPECT_GT(groundOf(withMat)->worldFromObject[3].y, -0.05);
+  // The underside of what stands on it is not seen: there it touches.
+  const auto standing = SceneOf().addBox({-1, 0, -1}, {1, 2, 1}).completed();
+  ASSERT_NE(groundOf(standing), nullptr);
+  EXPECT_EQ(groundOf(standing)->worldFromObject[3].y, 0.0);
+}
+
+TEST(AddedGround, NeverComesBetweenCameraOrLightAndTheScene) {
+  SceneOf scene;
+  scene.addBox({-1, -1, -1}, {1, 1, 1});
+  for (const double below : {-1.0, -1.5, -20.0}) {
+    const scene::Camera camera{.eyeWorld = {3, below, 4}, .targetWorld = {0, 0, 0}};
+    const auto fromBelow = scene.completed({.camera = camera, .light = lightAt({1, 5, 1})});
+    EXPECT_EQ(groundOf(fromBelow), nullptr) << below;
+    EXPECT_FALSE(fromBelow.notes.empty()) << "and it is said why";
+    EXPECT_EQ(groundOf(scene.completed({.light = lightAt({3, below, 4})})), nullptr) << below;
+  }
+  const scene::Camera above{.eyeWorld = {3, -0.9, 4}, .targetWorld = {0, 0, 0}};
+  EXPECT_NE(groundOf(scene.completed({.camera = above, .light = lightAt({1, 5, 1})})), nullptr);
+}
+
+TEST(SceneSource, TheNearPlaneFollowsWhatIsSeenHoweverFarTheSceneGoes) {
+  const scene::Camera camera{.eyeWorld = {0, 2, -3}, .targetWorld = {0, 0, 0}};
+  double first = 0.0;
+  for (const double far : {30.0, 1e3, 1e5, 1e7}) {
+    SceneOf scene;
+    scene.addBox({-1, 0, -1}, {1, 1, 1}).addBox({-1, 0, -1}, {1, 1, 1}, {0, 0, far});
+    const auto completed =
+        scene.completed({.ground = GroundMode::off, .camera = camera, .light = lightAt({1, 5, 1})});
+    if (first == 0.0) first = completed.camera->nearDistance;
+    EXPECT_NEAR(completed.camera->nearDistance, first, 1e-9 * far) << far;
+    EXPECT_GT(completed.camera->farDistance, 0.85 * far) << "along the view";
+  }
+  EXPECT_GT(first, 1.0);
+  EXPECT_LT(first, 2.5);
+  // A sheet through the eye, seen edge-on, does not pull it there.
+  SceneOf edgeOn;
+  edgeOn.addBox({-1, 0, -1}, {1, 1, 1}).addSheet(1000.0f, 2.0f);
+  const scene::Camera level{.eyeWorld = {0, 2, -5}, .targetWorld = {0, 2, 0}};
+  EXPECT_GT(edgeOn.completed({.camera = level, .light = lightAt({1, 5, 1})}).camera->nearDistance, 0.01);
 }
 
 TEST(SceneSource, ReportsWhatCannotBeOpened) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "gltf_writer.hpp"
 #include "scenes/builtin_scenes.hpp"
@@ -44,7 +45,11 @@ TEST(Validate, NamesOpenCastersAndInsideOutOnes) {
   const auto loaded = writer.load();
   ASSERT_TRUE(loaded.ok());
   const ValidationReport report = validateScene(*loaded);
-  EXPECT_TRUE(anyContains(report.objects[0].warnings, "inside out"));
+  EXPECT_TRUE(report.objects[0].warnings.empty() || !anyContains(report.objects[0].warnings, "inside out"))
+      << "it is turned round, for drawing too";
+  EXPECT_EQ(report.objects[0].turnedTriangles, 4u);
+  EXPECT_GT(report.objects[0].signedVolumeWorld, 0.0);
+  EXPECT_TRUE(anyContains(report.objects[0].repairs, "turned round"));
   EXPECT_EQ(report.objects[0].degenerateDropped, 1u);
 }
 
@@ -75,9 +80,34 @@ TEST(Validate, TellsWhatWasMendedForSilhouettes) {
   EXPECT_TRUE(anyContains(object.warnings, "fins"));
 }
 
-TEST(Validate, WarnsOfExtremeScale) {
-  EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@scale=1e6")).warnings, "radius"));
-  EXPECT_TRUE(anyContains(validateScene(*makeBuiltinScene("box@shift=1e7")).objects[0].warnings, "origin"));
+TEST(Validate, SaysWhereSinglePrecisionDoesNotHoldTheShape) {
+  // Size and place of a scene are no fault by themselves: transforms are in double.
+  for (const char* name : {"box@scale=1e6", "box@scale=1e-6", "box@shift=1e7"}) {
+    const ValidationReport report = validateScene(*makeBuiltinScene(name));
+    EXPECT_TRUE(report.warnings.empty()) << name;
+    EXPECT_TRUE(report.objects[0].warnings.empty()) << name;
+  }
+  // Baked into the vertices, a place costs digits: steps of 2^-4 at 1e6, of 2^-10 at 1e4.
+  for (const auto& [away, isWarned] :
+       {std::pair(1e4f, false), std::pair(1e5f, true), std::pair(1e6f, true)}) {
+    testing::GltfWriter writer;
+    const int position = writer.addAccessor(
+        std::vector<float>{away, 0, 0, away + 1, 0, 0, away, 1, 0, away, 0, 1}, testing::kFloat, "VEC3", 3);
+    const int indices = writer.addAccessor(std::vector<std::uint8_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3},
+                                           testing::kUnsignedByte, "SCALAR", 1);
+    writer.addPrimitive({{"attributes", {{"POSITION", position}}}, {"indices", indices}});
+    const auto loaded = writer.load();
+    ASSERT_TRUE(loaded.ok());
+    EXPECT_EQ(anyContains(validateScene(*loaded).objects[0].warnings, "single precision"), isWarned) << away;
+  }
+}
+
+TEST(Validate, SaysWhenCastersAreTooFarApartForOneMap) {
+  EXPECT_FALSE(anyContains(validateScene(*makeBuiltinScene("spheres81")).warnings, "texels"));
+  scene::SceneDescription world = *makeBuiltinScene("box");
+  world.objects.push_back(world.objects.front());
+  world.objects.back().worldFromObject[3] += glm::dvec4(3000, 0, 0, 0);
+  EXPECT_TRUE(anyContains(validateScene(world).warnings, "texels"));
 }
 
 }  // namespace

@@ -59,9 +59,10 @@ typedef struct HalfshadowObjectDesc {
 typedef struct HalfshadowLightDesc {
   size_t struct_size;
   double center[3], half_u[3], half_v[3];
-  double emission[3]; /* read only when both half vectors are zero */
+  double emission[3]; /* read only when both half vectors are zero: the light shines to that side */
   float color[3];
   double intensity;
+  double reference_distance; /* where the intensity counts fully; 0 = the same at every distance */
 } HalfshadowLightDesc;
 
 typedef enum HalfshadowOutput {

@@ -66,15 +66,22 @@ struct ObjectDesc {
 };
 using ObjectId = std::uint32_t;
 
-/// The points center + a·halfU + b·halfV, a and b in [-1, 1], world units; emits towards halfU × halfV.
-/// Both half vectors zero: a point light that emits around `emission`.
+/// The points center + a·halfU + b·halfV, a and b in [-1, 1], world units; shines into the half-space on the
+/// side of halfU × halfV, and not at all behind its own plane.
+/// Both half vectors zero: a point that shines into the half-space on the side of `emission`, like a
+/// rectangle too small to see. u = v = 0 alone leaves `emission` as it is, downward. One half vector zero, or
+/// both along one line, is an error: such a light has no side.
+/// Surfaces behind the light's plane get none of its light; their visibility is 1 by convention.
 struct LightDesc {
   double center[3] = {0, 0, 0};
   double halfU[3] = {0, 0, 0};
   double halfV[3] = {0, 0, 0};
-  double emission[3] = {0, -1, 0};  ///< read only when both half vectors are zero
+  double emission[3] = {0, -1, 0};  ///< read only when both half vectors are zero; need not be unit
   float color[3] = {1, 1, 1};
   double intensity = 1.0;
+  /// Where the intensity counts fully, world units; it falls with the square of the distance, up to 4 times
+  /// as much near the light. 0: the same at every distance, as of a sun. Only shading reads it.
+  double referenceDistance = 0.0;
 };
 inline constexpr int kMaxLights = 4;
 

@@ -67,7 +67,7 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   if (shading.setItemUniforms) shading.setItemUniforms(program, gl, item);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
-  relative[3] -= glm::dvec4(inputs->lights.front().light->centerWorld, 0.0);
+  relative[3] -= glm::dvec4(inputs->lights.front()->centerWorld, 0.0);
   program.set(gl, "u_shadeFromObject", glm::mat4(relative));
   program.set(gl, "u_worldNormalFromObject",
               glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
@@ -81,14 +81,14 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
                         1.0f / static_cast<float>(viewport.height));
   program.set(gl, "u_viewport", glm::vec4(scale, -scale * glm::vec2(viewport.x, viewport.y)));
   if (inputs == nullptr) return;
-  const glm::dvec3 origin = inputs->lights.front().light->centerWorld;
+  const glm::dvec3 origin = inputs->lights.front()->centerWorld;
   glm::vec4 position[4] = {}, emission[4] = {}, color[4] = {};
   for (std::size_t i = 0; i < 4; ++i) {
-    position[i].w = 1.0f;
     if (i >= inputs->lights.size()) continue;
-    const scene::AreaLight& light = *inputs->lights[i].light;
+    const scene::AreaLight& light = *inputs->lights[i];
+    const double reference = light.referenceDistance;
     position[i] = glm::vec4(glm::vec3(light.centerWorld - origin),
-                            static_cast<float>(inputs->lights[i].referenceDistance));
+                            reference > 0.0 ? static_cast<float>(1.0 / reference) : 0.0f);
     emission[i] = glm::vec4(glm::vec3(light.emission), 0.0f);
     color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
   }

@@ -17,11 +17,8 @@ enum class ReceiverOutput {
 };
 
 struct ShadingInputs {
-  struct Light {
-    const scene::AreaLight* light = nullptr;
-    double referenceDistance = 1.0;  ///< at which the light's intensity counts 1
-  };
-  std::vector<Light> lights;  ///< one when visibility is evaluated in the same pass, else up to four
+  std::vector<const scene::AreaLight*>
+      lights;  ///< one when visibility is evaluated in the same pass, else up to four
 };
 
 /// Lit colours from the visibilities of all lights that an earlier pass left in `visibility`.
