@@ -70,6 +70,8 @@ class VisibilityTracer {
         space_(space),
         light_{space.fromWorld(light.centerWorld), light.halfU * space.traceFromWorldScale,
                light.halfV * space.traceFromWorldScale},
+        lightCenterWorld_(light.centerWorld),
+        emission_(scene::emissionDirection(light)),
         lift_(options.originLiftWorld * space.traceFromWorldScale),
         seedKey_(scattered(options.seed + 0x9e3779b9u)) {
     const Strata strata = light_.hasSize() ? strataFor(options.samples) : Strata{1, 1};
@@ -80,6 +82,7 @@ class VisibilityTracer {
 
   float visibility(const ReceiverImage& receivers, std::uint32_t pixel) const {
     if (receivers.kind[pixel] == kNoReceiver) return 1.0f;
+    if (glm::dot(emission_, receivers.positionWorld[pixel] - lightCenterWorld_) <= 0.0) return 1.0f;
     RayOrigin origin{.point = space_.fromWorld(receivers.positionWorld[pixel]),
                      .normal = receivers.normalWorld[pixel]};
     if (receivers.kind[pixel] == kCasterReceiver) origin.point += lift_ * origin.normal;
@@ -118,6 +121,7 @@ class VisibilityTracer {
   CasterShafts shafts_;
   TraceSpace space_;
   TraceLight light_;
+  glm::dvec3 lightCenterWorld_, emission_;
   double lift_;
   std::uint32_t seedKey_;
   std::vector<Stratum> order_;

@@ -75,6 +75,21 @@ TEST(Reference, PointLightIsHard) {
   }
 }
 
+TEST(Reference, BehindTheLightNothingIsHidden) {
+  // A plate across the light's plane, receivers on a wall on both sides of it: light.hpp's convention.
+  scene::SceneDescription scene;
+  scene.objects.push_back(parallelogram("plate", {1, 4, 0}, {0, 3, 0}, {0, 0, 3}));
+  for (const double size : {0.0, 0.5}) {
+    scene::AreaLight light = kLight;
+    light.halfU *= size, light.halfV *= size;
+    const ReceiverImage receivers = receiverGrid(20, {2, 4, 0}, {0, 2, 0}, {0, 0, 2});
+    const std::vector<float> visibility = traced(scene, light, receivers, {.samples = 16});
+    for (std::size_t i = 0; i < visibility.size(); ++i) {
+      EXPECT_EQ(visibility[i], receivers.positionWorld[i].y > 4.0 ? 1.0f : 0.0f) << "size " << size;
+    }
+  }
+}
+
 TEST(Reference, OnlyCastersShadow) {
   scene::SceneDescription scene = plateScene();
   scene.objects[0].casts = false;
