@@ -47,6 +47,7 @@ struct CellLists {
   bool oneSided = false;         ///< some record is
   bool amongReceivers = false;   ///< some tile is
   bool behindFacets = false;     ///< some record is of what lies behind a facet
+  bool cutShort = false;         ///< there would be too many records: the rest is missing
 };
 
 /// Which edges of a simplified loop are listed.
@@ -62,9 +63,10 @@ struct ListedReceiver {
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
-/// made of.
+/// made of. Stops, cut short, at `mostRecords`.
 CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
-                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges);
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
+                    std::size_t mostRecords = ~std::size_t{0});
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
 /// `farthest`: the least i of any receiver.

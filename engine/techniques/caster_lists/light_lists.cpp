@@ -63,6 +63,14 @@ FacetPlanes facetPlanes(const ListSpace& space, const glm::dmat4& worldFromObjec
           glm::vec4(scale * one)};
 }
 
+bool isListed(const DrawItem& item, const ListRequest& request) {
+  return request.receivers == ListedReceivers::all || item.casts;
+}
+std::size_t countListed(const LightFrame& frame, const ListRequest& request) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(frame.receivers, [&](const DrawItem& item) { return isListed(item, request); }));
+}
+
 /// Whether faces of the receiver may be seen from behind: it has openings, or the near plane opens it.
 bool maySeeBehind(const View& view, const DrawItem& item) {
   if (!item.closed) return true;
@@ -150,11 +158,13 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       std::min({limits.textureSize, 65536, frame.capabilities.has(gl::Capability::highp) ? 65536 : 1024});
   tileSize_ = finest * std::exp2(doublings_);
   bool changed = !tiles_;
+  const std::size_t mostRecords = static_cast<std::size_t>(maxRows) * kRecordsPerRow;
   for (int attempt = 0; attempt < 8; ++attempt) {
     std::vector<const void*> used;
     std::vector<ReceiverLists> receivers;
+    std::size_t records = 0;
     for (const DrawItem& item : frame.receivers) {
-      if (request.receivers == ListedReceivers::casting && !item.casts) continue;
+      if (!isListed(item, request)) continue;
       Receiver& cached = receivers_[item.geometry];
       const bool seenFromBehind = maySeeBehind(frame.view, item);
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
@@ -169,10 +179,13 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
                            .withPatches = receiver.ownObject != kNoObject},
                           loops_.space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
                           kMaxTiles, loops_.minHeight());
-        cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges);
+        cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges,
+                                 mostRecords - records);
         changed = true;
-        if(getenv("DBGL")) { int os=0,al=0; for(auto&r:cached.lists.records){os+=r.oneSided;++al;} fprintf(stderr,"DBG casts %d closed %d behind %d tiles %dx%d partial %zu records %d onesided %d patches %zu origin %g\n",item.casts,item.closed,seenFromBehind,cached.tiles.columns,cached.tiles.rows,cached.lists.partialTiles,al,os,cached.tiles.patches.size(),loops_.space().originI);}
       }
+      // What does not fit is not built to its end.
+      records += cached.lists.records.size();
+      if (cached.lists.cutShort || records > mostRecords) break;
       used.push_back(item.geometry);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
     }
@@ -181,7 +194,8 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     std::ranges::sort(inSomeOrder);
     if (!changed && inSomeOrder == encoded_) return {};
     EncodedLists encoded;
-    if (encodeLists(receivers, maxRows, encoded)) {
+    const bool whole = used.size() == countListed(frame, request);
+    if (whole && encodeLists(receivers, maxRows, encoded)) {
       if (Status s = uploadList(frame.context, encoded.tiles, tiles_); !s) return s;
       if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
