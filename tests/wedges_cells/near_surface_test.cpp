@@ -159,8 +159,9 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     loops.push_back(loopsOf(silhouettes, {&caster, 1}, light, space));
   }
   NearSurfaces surfaces({&caster, 1}, space, 1e-3);
-  const ReceiverTiles tiles = receiverTiles({.mesh = &mesh, .closed = surface == Surface::closed, .withPatches = true}, space,
-                                            shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
+  const ReceiverTiles tiles =
+      receiverTiles({.mesh = &mesh, .closed = surface == Surface::closed, .withPatches = true}, space,
+                    shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
   const CellLists lists = cellLists(loops, surfaces, tiles, {.ownObject = 0}, ListedEdges::all);
 
   Deviation result;
@@ -185,8 +186,7 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     const glm::dvec3 lifted =
         onSurface + kPlaceRounding * glm::abs(onSurface) * glm::sign(glm::dvec3(facet.x, facet.y, facet.w));
     const glm::dvec3 receiver = plane.toWorld(space.lightPoint(lifted));
-    const auto covered = walk(std::span(lists.records).subspan(list.first, list.count), kQuarters,
-                              lifted);
+    const auto covered = walk(std::span(lists.records).subspan(list.first, list.count), kQuarters, lifted);
     double expected = 0.0, actual = 0.0;
     constexpr int kSide = 16;
     for (int k = 0; k < kSide * kSide; ++k) {
@@ -217,7 +217,8 @@ TEST(NearSurface, FacesCoverWhatRaysDoNotPass) {
   // 576 samples: .01 at half coverage, stratified; layers that overlap within one of sixteen cells add a
   // little.
   for (const double half : {0.3, 1.0, 2.0}) {
-    const Deviation bumpy = deviation(bumpyBall(32, 20), half, 5, half < 0.5 ? Origin::caster : Origin::light);
+    const Deviation bumpy =
+        deviation(bumpyBall(32, 20), half, 5, half < 0.5 ? Origin::caster : Origin::light);
     const double rmse = std::sqrt(bumpy.square / std::max(bumpy.receivers, 1));
     std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half,
                 bumpy.receivers, bumpy.penumbra, rmse, bumpy.largest);
@@ -232,8 +233,8 @@ TEST(NearSurface, OpenSheetsHideFromBothSides) {
   for (const double half : {0.3, 1.0}) {
     const Deviation bent = deviation(bentSheet(24), half, 3, Origin::caster, Surface::open);
     const double rmse = std::sqrt(bent.square / std::max(bent.receivers, 1));
-    std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half, bent.receivers,
-                bent.penumbra, rmse, bent.largest);
+    std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half,
+                bent.receivers, bent.penumbra, rmse, bent.largest);
     EXPECT_GT(bent.receivers, 300);
     EXPECT_GT(bent.penumbra, 30);
     EXPECT_LE(rmse, 0.012) << half;

@@ -148,8 +148,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
         around = &surface;
       }
     }
-    const bool among =
-        !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
+    const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(caster.low, caster.high) != 0) continue;
     if (!among || !addNear(caster)) add(caster);
   }
@@ -224,7 +223,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     };
     for (std::size_t c = 0; c < block[s].partial.size() && !full; ++c) {
       const BlockCasters::Partial& partial = block[s].partial[c];
-      const bool inside = partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
+      const bool inside =
+          partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
       add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
@@ -261,7 +261,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     return record.behindFacet == CellRecord::kVertex && record.ti.z < receivers.iHigh;
   });
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
-               ((list.casters == 1 && records.back().behindFacet == CellRecord::kVertex) || castersApart(std::span(records).subspan(list.first), receivers));
+               ((list.casters == 1 && records.back().behindFacet == CellRecord::kVertex) ||
+                castersApart(std::span(records).subspan(list.first), receivers));
   if (list.count > 0) records.back().end = CellRecord::End::list;
   return list;
 }
@@ -291,10 +292,10 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
             lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
             continue;
           }
-          lists.tiles[tile] = tileList(subLights, block,
-                                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile),
-                                        surfaces.nextTile()},
-                                       edges, lists.records);
+          lists.tiles[tile] =
+              tileList(subLights, block,
+                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
+                       edges, lists.records);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

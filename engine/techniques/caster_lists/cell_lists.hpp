@@ -22,8 +22,8 @@ struct CellRecord {
   bool startsLoop = false;  ///< no edge leads here
   bool closesLoop = false;
   bool oneSided = false;  ///< of its loop, which counts only where what it covers is positive
-  /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane of
-  /// the receiver's own facet.
+  /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane
+  /// of the receiver's own facet.
   std::int8_t behindFacet = kVertex;
   static constexpr std::int8_t kVertex = -1;
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;

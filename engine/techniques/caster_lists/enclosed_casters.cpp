@@ -57,7 +57,8 @@ bool contains(const scene::Bounds& outer, const scene::Bounds& inner) {
 }
 }  // namespace
 
-std::vector<bool> enclosedCasters(std::span<const scene::PlacedCaster> casters, const scene::AreaLight& light) {
+std::vector<bool> enclosedCasters(std::span<const scene::PlacedCaster> casters,
+                                  const scene::AreaLight& light) {
   std::vector<bool> enclosed(casters.size(), false);
   std::vector<scene::Bounds> bounds;
   for (const scene::PlacedCaster& caster : casters) bounds.push_back(boundsWorld(caster));

@@ -14,6 +14,7 @@ namespace halfshadow::techniques {
 
 /// For each caster, whether it lies inside a closed convex one that has all of the light outside: receivers
 /// within that one are dark, and for those beyond it nothing inside adds to its shadow. Conservative.
-std::vector<bool> enclosedCasters(std::span<const scene::PlacedCaster> casters, const scene::AreaLight& light);
+std::vector<bool> enclosedCasters(std::span<const scene::PlacedCaster> casters,
+                                  const scene::AreaLight& light);
 
 }  // namespace halfshadow::techniques

@@ -22,8 +22,8 @@ std::uint32_t casterOf(const LightFrame& frame, const DrawItem& receiver) {
   return found == frame.casters.end() ? kNoObject : static_cast<std::uint32_t>(found - frame.casters.begin());
 }
 
-/// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x and
-/// y in [0, 1] over the view.
+/// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x
+/// and y in [0, 1] over the view.
 std::array<glm::vec4, 3> pixelRays(const View& view, const glm::dmat4& homogeneousFromWorld) {
   const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
   const auto direction = [&](double x, double y) {
@@ -54,7 +54,8 @@ FacetPlanes facetPlanes(const ListSpace& space, const glm::dmat4& worldFromObjec
   const bool centred = space.originI > 0.0;
   const glm::dvec3 originObject =
       centred ? inverse * (glm::dvec3(0.0, 0.0, 1.0 / space.originI) - offset) : glm::dvec3(0.0);
-  const glm::dvec4 one = centred ? space.originI * glm::dvec4(originObject, -1.0) : glm::dvec4(inverse[2], 0.0);
+  const glm::dvec4 one =
+      centred ? space.originI * glm::dvec4(originObject, -1.0) : glm::dvec4(inverse[2], 0.0);
   double largest = std::max(glm::length(inverse[0]), glm::length(inverse[1]));
   largest = std::max({largest, glm::length(glm::dvec3(one)), glm::length(lightObject)});
   const double scale = 1.0 / std::max(largest, 1e-300);
@@ -129,8 +130,7 @@ bool LightLists::boundShadows(const LightFrame& frame) {
     }
   }
   shadows_ = shadowedTangents(loops_.subLights(), reach.farthest);
-  const glm::dvec2 size =
-      glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
+  const glm::dvec2 size = glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
   const double longer = std::max(size.x, size.y);
   const bool same = longer == shadowSize_;
   shadowSize_ = longer > 0.0 ? longer : 1.0;
@@ -228,8 +228,8 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
     return receiver.second.lists.amongReceivers && !receiver.second.casts;
   });
-  const bool behind =
-      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
+  const bool behind = std::ranges::any_of(
+      receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
   if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");

@@ -325,8 +325,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
                       std::vector<std::uint32_t>& result) {
   result.clear();
   const OuterSides outer(light, receivers.box);
-  const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
-                           lightIsBefore(receivers, light);
+  const bool lightBefore =
+      choice == FacetChoice::asReceiversSee && !receivers.patches.empty() && lightIsBefore(receivers, light);
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
@@ -358,13 +358,13 @@ Interior interiorOf(const NearSurface& surface, const TangentBox& receivers) {
 }
 
 bool hidesFromInside(const NearSurface& surface, const SubLight& light) {
-  return std::ranges::any_of(surface.facets, [&](const NearSurface::Facet& facet) {
-    return sideOf(facet.plane, light) > 0;
-  });
+  return std::ranges::any_of(surface.facets,
+                             [&](const NearSurface::Facet& facet) { return sideOf(facet.plane, light) > 0; });
 }
 
 OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers) {
-  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty()) return OwnHorizon::unknown;
+  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty())
+    return OwnHorizon::unknown;
   bool before = true, behind = true;
   for (const ReceiverPatch& patch : receivers.patches) {
     const int side = sideOf(patch.plane, light);
