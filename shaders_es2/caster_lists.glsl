@@ -76,7 +76,7 @@ void hs_findList() {
   // Towards the eye: that side of the surface is seen.
   n *= dot(n, u_eyeLight.xyz - u_eyeLight.w * hs_receiver) < 0.0 ? -1.0 : 1.0;
   hs_away = sign(n);
-#ifdef HS_BEHIND_FACETS
+#if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
   hs_facet = n;
 #endif
 #endif
@@ -86,5 +86,8 @@ void hs_findList() {
 HS_HIGHP vec3 hs_enterList(out HS_HIGHP vec2 at) {
   at = hs_vertexAt(hs_head.r, hs_head.g + 256.0 * hs_head.b);
   HS_HIGHP vec3 center = hs_beginList(at);
+#ifdef HS_ONE_SIDED
+  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + 2.0 * u_listPlace.w * abs(hs_receiver));
+#endif
   return hs_originFrom(center, hs_receiver, hs_away);
 }

@@ -89,20 +89,21 @@ void hs_addFarChord(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_H
 }
 
 #ifdef HS_ONE_SIDED
-// covered += part; parts of a one-sided loop are collected, and count where their sum is positive once it closes.
+// covered += part; parts of a one-sided loop are collected, and count where their sum is positive once it closes, if
+// `counts` is 1.
 void hs_addPart(inout HS_Cells covered, inout HS_Cells loop, HS_Cells part, HS_HIGHP float oneSided,
-                HS_HIGHP float closes) {
+                HS_HIGHP float closes, HS_HIGHP float counts) {
   HS_HIGHP float others = 1.0 - oneSided, open = 1.0 - closes;
 #if HS_CELLS == 32
   loop.lower += part.lower * oneSided;
   loop.upper += part.upper * oneSided;
-  covered.lower += part.lower * others + max(loop.lower, 0.0) * closes;
-  covered.upper += part.upper * others + max(loop.upper, 0.0) * closes;
+  covered.lower += part.lower * others + max(loop.lower, 0.0) * (closes * counts);
+  covered.upper += part.upper * others + max(loop.upper, 0.0) * (closes * counts);
   loop.lower *= open;
   loop.upper *= open;
 #else
   loop += part * oneSided;
-  covered += part * others + max(loop, 0.0) * closes;
+  covered += part * others + max(loop, 0.0) * (closes * counts);
   loop *= open;
 #endif
 }

@@ -33,7 +33,8 @@ struct HS_CutWalk {
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
 #ifdef HS_ONE_SIDED
-  HS_Cells oneSided;  // what the loop covers so far, if it is one-sided
+  HS_Cells oneSided;      // what the loop covers so far, if it is one-sided
+  HS_HIGHP float offFacet;  // by how much a vertex of it lies off the receiver's own plane
 #endif
 };
 void hs_startCutWalk(out HS_CutWalk walk) {
@@ -42,6 +43,7 @@ void hs_startCutWalk(out HS_CutWalk walk) {
   walk.begun = 0.0;
 #ifdef HS_ONE_SIDED
   walk.oneSided = HS_CELLS_ALL(0.0);
+  walk.offFacet = 0.0;
 #endif
 }
 void hs_cutWalk(inout HS_CutWalk walk, inout HS_Cells covered, HS_HIGHP vec3 projected, HS_Tags tags) {
@@ -64,7 +66,10 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Cells covered, HS_HIGHP vec3 pro
   hs_addEdge(part, seen ? from : to, to);
   walk.reached = seen ? to : walk.reached;
   hs_addFarChord(part, walk.reached, walk.firstReached, walk.begun * tags.closes);
-  hs_addPart(covered, walk.oneSided, part, tags.oneSided, tags.closes);
+  // A facet hides nothing from itself.
+  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), abs(dot(hs_facet, projected)));
+  HS_HIGHP float counts = hs_facetRounding > 0.0 ? step(hs_facetRounding, walk.offFacet) : 1.0;
+  hs_addPart(covered, walk.oneSided, part, tags.oneSided, tags.closes, counts);
 #else
   hs_addFarChord(covered, walk.reached, from, seen ? 1.0 : 0.0);
   hs_addEdge(covered, seen ? from : to, to);

@@ -66,8 +66,11 @@ struct HS_Tags {
   HS_HIGHP vec2 side;
 };
 
-#ifdef HS_BEHIND_FACETS
+#if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
 HS_HIGHP vec3 hs_facet = vec3(0.0);  // how the plane of the receiver's facet rises along (t, i), on its visible side
+HS_HIGHP float hs_facetRounding = 0.0;  // vertices are known to lie off that plane where they rise by more
+#endif
+#ifdef HS_BEHIND_FACETS
 // Corner 0, 1 or 2 of a triangle that has of the light what lies behind that plane, counter-clockwise.
 HS_HIGHP vec3 hs_behindFacet(HS_HIGHP float corner) {
   HS_HIGHP float slope = max(length(hs_facet.xy), HS_SMALL);

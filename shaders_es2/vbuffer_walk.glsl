@@ -24,7 +24,8 @@ struct HS_CutWalk {
   HS_HIGHP vec2 reached, firstReached;
   HS_HIGHP float begun;
 #ifdef HS_ONE_SIDED
-  HS_Sums oneSided;  // of the loop so far, if it is one-sided
+  HS_Sums oneSided;         // of the loop so far, if it is one-sided
+  HS_HIGHP float offFacet;  // by how much a vertex of it lies off the receiver's own plane
 #endif
 };
 void hs_startCutWalk(out HS_CutWalk walk) {
@@ -33,6 +34,7 @@ void hs_startCutWalk(out HS_CutWalk walk) {
   walk.begun = 0.0;
 #ifdef HS_ONE_SIDED
   hs_clearSums(walk.oneSided);
+  walk.offFacet = 0.0;
 #endif
 }
 void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS_Tags tags) {
@@ -49,6 +51,7 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 project
     walk.begun = 1.0;
   }
 #ifdef HS_ONE_SIDED
+  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), abs(dot(hs_facet, projected)));
   bool twoSided = tags.oneSided < 0.5;
   HS_Sums parts = walk.oneSided;
   if (twoSided) parts = sums;
@@ -61,7 +64,9 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 project
   } else {
     walk.oneSided = parts;
     if (tags.closes > 0.5) {
-      if (dot(parts.share, vec4(1.0)) > 0.0) hs_addSums(sums, parts);
+      // A facet hides nothing from itself.
+      bool counts = hs_facetRounding <= 0.0 || walk.offFacet > hs_facetRounding;
+      if (counts && dot(parts.share, vec4(1.0)) > 0.0) hs_addSums(sums, parts);
       hs_clearSums(walk.oneSided);
     }
   }

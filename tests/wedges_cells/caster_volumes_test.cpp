@@ -128,7 +128,8 @@ TEST(CasterVolumes, AnEnclosedLightNeedsNone) {
   SubLightLoops loops{.light = {glm::vec2(0.0f), 1.0f}};
   loops.casters = {ring({0, 0, 0.5}, 2.0, 0.05)};
   loops.casters[0].enclosesLight = true;
-  const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::none);
+  const CasterVolumes volumes =
+      casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::none);
   EXPECT_TRUE(volumes.lightEnclosed[0]);
   EXPECT_TRUE(volumes.volumes.empty());
 }

@@ -46,6 +46,26 @@ scene::TriangleMesh bumpyBall(int slices, int stacks) {
   return mesh;
 }
 
+/// An open sheet with folds.
+scene::TriangleMesh bentSheet(int side) {
+  scene::TriangleMesh mesh;
+  for (int z = 0; z <= side; ++z) {
+    for (int x = 0; x <= side; ++x) {
+      const float a = 2.0f * static_cast<float>(x) / static_cast<float>(side) - 1.0f;
+      const float b = 2.0f * static_cast<float>(z) / static_cast<float>(side) - 1.0f;
+      mesh.positions.emplace_back(a, 0.5f * std::sin(4.0f * a + b) + 0.2f * std::cos(5.0f * b), b);
+    }
+  }
+  const auto at = [&](int x, int z) { return static_cast<std::uint32_t>(z * (side + 1) + x); };
+  for (int z = 0; z < side; ++z) {
+    for (int x = 0; x < side; ++x) {
+      mesh.indices.insert(mesh.indices.end(), {at(x, z), at(x, z + 1), at(x + 1, z)});
+      mesh.indices.insert(mesh.indices.end(), {at(x + 1, z), at(x, z + 1), at(x + 1, z + 1)});
+    }
+  }
+  return mesh;
+}
+
 scene::TriangleMesh box(const glm::vec3& half) {
   scene::TriangleMesh mesh;
   for (int k = 0; k < 8; ++k) {
@@ -56,8 +76,10 @@ scene::TriangleMesh box(const glm::vec3& half) {
   return mesh;
 }
 
-/// How often the segment leaves the surface through one of its triangles.
-int exits(const scene::TriangleMesh& mesh, const glm::dvec3& from, const glm::dvec3& to) {
+enum class Surface { closed, open };
+
+/// How often the segment leaves the closed surface through one of its triangles, or meets one of the open.
+int exits(const scene::TriangleMesh& mesh, Surface surface, const glm::dvec3& from, const glm::dvec3& to) {
   int count = 0;
   const glm::dvec3 d = to - from;
   for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
@@ -67,7 +89,7 @@ int exits(const scene::TriangleMesh& mesh, const glm::dvec3& from, const glm::dv
     const glm::dvec3 p = glm::cross(d, e2);
     const double det = glm::dot(e1, p);
     // Along the outward normal; det is its negated dot with d.
-    if (det > -1e-15) continue;
+    if (surface == Surface::closed ? det > -1e-15 : std::abs(det) < 1e-15) continue;
     const glm::dvec3 s = from - a, q = glm::cross(s, e1);
     const double u = glm::dot(s, p) / det, v = glm::dot(d, q) / det, t = glm::dot(e2, q) / det;
     count += u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < 1.0;
@@ -110,7 +132,7 @@ struct Deviation {
 enum class Origin { light, caster };
 
 Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed,
-                    Origin origin = Origin::light) {
+                    Origin origin = Origin::light, Surface surface = Surface::closed) {
   const auto built = scene::buildMesh({.positions = &shape.positions.front().x,
                                        .vertexCount = static_cast<std::uint32_t>(shape.positions.size()),
                                        .indices = shape.indices.data(),
@@ -137,8 +159,9 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     loops.push_back(loopsOf(silhouettes, {&caster, 1}, light, space));
   }
   NearSurfaces surfaces({&caster, 1}, space, 1e-3);
-  const ReceiverTiles tiles = receiverTiles({.mesh = &mesh, .closed = true, .withPatches = true}, space,
-                                            shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
+  const ReceiverTiles tiles =
+      receiverTiles({.mesh = &mesh, .closed = surface == Surface::closed, .withPatches = true}, space,
+                    shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
   const CellLists lists = cellLists(loops, surfaces, tiles, {.ownObject = 0}, ListedEdges::all);
 
   Deviation result;
@@ -147,11 +170,13 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
   for (std::size_t f = 0; f < mesh.indices.size(); f += 3) {
     const glm::dvec3 a(mesh.positions[mesh.indices[f]]), b(mesh.positions[mesh.indices[f + 1]]),
         c(mesh.positions[mesh.indices[f + 2]]);
-    const glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
+    glm::dvec3 normal = glm::normalize(glm::cross(b - a, c - a));
     double s = unit(random), t = unit(random);
     if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
     const glm::dvec3 place = a + s * (b - a) + t * (c - a);
-    if (glm::dot(normal, area->centerWorld - place) <= 0.0) continue;
+    const double height = glm::dot(normal, area->centerWorld - place);
+    if (surface == Surface::open && height < 0.0) normal = -normal;
+    if (surface == Surface::closed && height <= 0.0) continue;
     const glm::dvec3 onSurface = space.tangentPoint(plane.fromWorld(place));
     const glm::ivec2 tile(glm::floor((glm::dvec2(onSurface) - tiles.low) / tiles.tileSize));
     if (tile.x < 0 || tile.y < 0 || tile.x >= tiles.columns || tile.y >= tiles.rows) continue;
@@ -161,15 +186,14 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     const glm::dvec3 lifted =
         onSurface + kPlaceRounding * glm::abs(onSurface) * glm::sign(glm::dvec3(facet.x, facet.y, facet.w));
     const glm::dvec3 receiver = plane.toWorld(space.lightPoint(lifted));
-    const auto covered = walk(std::span(lists.records).subspan(list.first, list.count), kQuarters,
-                              lifted);
+    const auto covered = walk(std::span(lists.records).subspan(list.first, list.count), kQuarters, lifted);
     double expected = 0.0, actual = 0.0;
     constexpr int kSide = 16;
     for (int k = 0; k < kSide * kSide; ++k) {
       const double x = 2.0 * (k % kSide + unit(random)) / kSide - 1.0;
       const double y = 2.0 * (k / kSide + unit(random)) / kSide - 1.0;
       // Layers that cover the same point of the light count once, as the fragment's clamp has it per cell.
-      expected += std::min(exits(mesh, receiver, plane.toWorld({x, y, 0.0})), 1);
+      expected += std::min(exits(mesh, surface, receiver, plane.toWorld({x, y, 0.0})), 1);
     }
     expected /= kSide * kSide;
     // Sub-lights that are covered wholly have no records.
@@ -193,7 +217,8 @@ TEST(NearSurface, FacesCoverWhatRaysDoNotPass) {
   // 576 samples: .01 at half coverage, stratified; layers that overlap within one of sixteen cells add a
   // little.
   for (const double half : {0.3, 1.0, 2.0}) {
-    const Deviation bumpy = deviation(bumpyBall(32, 20), half, 5, half < 0.5 ? Origin::caster : Origin::light);
+    const Deviation bumpy =
+        deviation(bumpyBall(32, 20), half, 5, half < 0.5 ? Origin::caster : Origin::light);
     const double rmse = std::sqrt(bumpy.square / std::max(bumpy.receivers, 1));
     std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half,
                 bumpy.receivers, bumpy.penumbra, rmse, bumpy.largest);
@@ -201,6 +226,19 @@ TEST(NearSurface, FacesCoverWhatRaysDoNotPass) {
     EXPECT_GT(bumpy.penumbra, 30);
     EXPECT_LE(rmse, 0.012) << half;
     EXPECT_LE(bumpy.largest, 0.09) << half;
+  }
+}
+
+TEST(NearSurface, OpenSheetsHideFromBothSides) {
+  for (const double half : {0.3, 1.0}) {
+    const Deviation bent = deviation(bentSheet(24), half, 3, Origin::caster, Surface::open);
+    const double rmse = std::sqrt(bent.square / std::max(bent.receivers, 1));
+    std::printf("half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", half,
+                bent.receivers, bent.penumbra, rmse, bent.largest);
+    EXPECT_GT(bent.receivers, 300);
+    EXPECT_GT(bent.penumbra, 30);
+    EXPECT_LE(rmse, 0.012) << half;
+    EXPECT_LE(bent.largest, 0.09) << half;
   }
 }
 

@@ -39,8 +39,8 @@ glm::dvec3 baseOf(const ListSpace& space) {
   return space.originI > 0.0 ? space.lightPoint(glm::dvec3(0.0)) : glm::dvec3(0.0);
 }
 
-std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach& reach, const ListSpace& space,
-                                 const EncodedLists& encoded) {
+std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach& reach,
+                                 const ListSpace& space, const EncodedLists& encoded) {
   const glm::dvec3 base = baseOf(space);
   std::vector<Vertex> stream;
   stream.reserve(volumes.volumes.size() * kCorners);
@@ -48,8 +48,10 @@ std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach
     const EncodedLists::Placed& placed = encoded.lists[volume.list];
     const std::uint32_t record = placed.firstRecord;
     const WedgeExtent& extent = volume.extent;
-    const glm::dvec2 low = glm::dvec2(extent.lowA, extent.lowB) - space.originT + space.originI * extent.lightHigh;
-    const glm::dvec2 high = glm::dvec2(extent.highA, extent.highB) - space.originT + space.originI * extent.lightLow;
+    const glm::dvec2 low =
+        glm::dvec2(extent.lowA, extent.lowB) - space.originT + space.originI * extent.lightHigh;
+    const glm::dvec2 high =
+        glm::dvec2(extent.highA, extent.highB) - space.originT + space.originI * extent.lightLow;
     Vertex vertex{.corner = {},
                   .list = glm::vec3(record % kRecordsPerRow, record / kRecordsPerRow,
                                     std::round((volume.splitI - placed.center.z) / placed.step.z)),
@@ -66,7 +68,7 @@ std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach
 
 /// A receiver's place as caster_fragment.glsl has it.
 struct CasterPlace {
-  glm::dmat3 fromWorld{1.0};     ///< relative to the light's centre; last, 1 less where heights are about equal
+  glm::dmat3 fromWorld{1.0};  ///< relative to the light's centre; last, 1 less where heights are about equal
   glm::vec4 heights{0.0f}, sizeWorld{0.0f};
   float unitWorld = 1.0f;  ///< by which heights are counted
 };

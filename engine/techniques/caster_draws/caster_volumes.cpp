@@ -7,8 +7,8 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// A receiver is behind the whole caster when its i is smaller than that of the farthest vertex by this share of
-/// the caster's size, or of what single precision knows.
+/// A receiver is behind the whole caster when its i is smaller than that of the farthest vertex by this share
+/// of the caster's size, or of what single precision knows.
 constexpr float kBehind = 1e-3f, kRounding = 1e-5f;
 
 float splitMargin(const CasterLoops& caster) {
@@ -53,8 +53,10 @@ class Collector {
       const CasterLoops& caster = loops.casters[c];
       if (caster.loops.empty()) continue;
       const float margin = splitMargin(caster), splitI = caster.low.z - margin;
-      CasterVolume volume{
-          .subLight = subLight, .caster = c, .extent = extentOf(caster, loops.light, space_), .splitI = splitI};
+      CasterVolume volume{.subLight = subLight,
+                          .caster = c,
+                          .extent = extentOf(caster, loops.light, space_),
+                          .splitI = splitI};
       if (volume.extent.nearest >= reach_.end) continue;
       // A little of both sides of the split, so that rounding leaves no receiver outside.
       const double from = heightOf(splitI + 0.1f * margin), until = heightOf(splitI - 0.1f * margin);
@@ -64,8 +66,10 @@ class Collector {
       for (std::uint32_t l = 0; l < caster.layerCount; ++l) {
         const CasterLoops& layer = loops.layers[caster.firstLayer + l];
         if (layer.loops.empty()) continue;
-        CasterVolume layerVolume{
-            .subLight = subLight, .caster = c, .extent = extentOf(layer, loops.light, space_), .splitI = splitI};
+        CasterVolume layerVolume{.subLight = subLight,
+                                 .caster = c,
+                                 .extent = extentOf(layer, loops.light, space_),
+                                 .splitI = splitI};
         layerVolume.list = addList(layer, static_cast<std::uint8_t>(subLight), result_.lists);
         addPart(layerVolume, WedgePart::beyond, from, reach_.end);
       }

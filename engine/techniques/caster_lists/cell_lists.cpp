@@ -23,7 +23,11 @@ struct BlockCasters {
     FacetChoice choice = FacetChoice::asLightSees;
     std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
   };
-  std::vector<CasterLoops> partial;
+  struct Partial {
+    CasterLoops loops;
+    const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
+  };
+  std::vector<Partial> partial;
   std::vector<Near> near;
   bool full = false;
 };
@@ -114,9 +118,10 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   result.near.clear();
   thread_local CasterLoops simplified;
   const OuterSides sides(loops.light, receivers);
+  const NearSurface* around = nullptr;
   const auto add = [&](const CasterLoops& caster) {
     const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
-    if (coverage == Coverage::partial) result.partial.push_back(simplified);
+    if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
     result.full = result.full || coverage == Coverage::full;
   };
   const auto addNear = [&](const CasterLoops& caster) {
@@ -133,10 +138,19 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     return true;
   };
   for (const CasterLoops& caster : loops.casters) {
+    around = nullptr;
     const glm::vec3 low(glm::vec2(caster.low), std::min(caster.low.z, caster.deepest));
     if (low.z >= receivers.iHigh) {
       forEachLayer(loops, caster, add);
       continue;
+    }
+    if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
+      const NearSurface& surface = surfaces.of(caster.object, caster.part);
+      const Interior interior = interiorOf(surface, receivers);
+      if (interior != Interior::outside && hidesFromInside(surface, loops.light)) {
+        result.full = result.full || interior == Interior::inside;
+        around = &surface;
+      }
     }
     const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(low, caster.high) != 0) continue;
@@ -212,7 +226,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       if (list.casters < 255) ++list.casters;
     };
     for (std::size_t c = 0; c < block[s].partial.size() && !full; ++c) {
-      add(simplify(block[s].partial[c], loops.light, receivers, simplified));
+      const BlockCasters::Partial& partial = block[s].partial[c];
+      const bool inside =
+          partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
+      add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
       const auto& [caster, surface, choice, facets] = block[s].near[c];
@@ -256,7 +273,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
 }  // namespace
 
 CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
-                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges) {
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
+                    std::size_t mostRecords) {
   CellLists lists;
   lists.tiles.resize(tiles.boxes.size());
   std::vector<BlockCasters> block(subLights.size());
@@ -265,6 +283,8 @@ CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
     for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
       const TangentBox all = blockBox(tiles, x0, y0);
       if (all.empty()) continue;
+      lists.cutShort = lists.records.size() > mostRecords;
+      if (lists.cutShort) return lists;
       facets.clear();
       for (std::size_t s = 0; s < subLights.size(); ++s) {
         simplifyAll(subLights[s], surfaces, facets, all, receiver, block[s]);

@@ -22,8 +22,8 @@ struct CellRecord {
   bool startsLoop = false;  ///< no edge leads here
   bool closesLoop = false;
   bool oneSided = false;  ///< of its loop, which counts only where what it covers is positive
-  /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane of
-  /// the receiver's own facet.
+  /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane
+  /// of the receiver's own facet.
   std::int8_t behindFacet = kVertex;
   static constexpr std::int8_t kVertex = -1;
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
@@ -47,6 +47,7 @@ struct CellLists {
   bool oneSided = false;         ///< some record is
   bool amongReceivers = false;   ///< some tile is
   bool behindFacets = false;     ///< some record is of what lies behind a facet
+  bool cutShort = false;         ///< there would be too many records: the rest is missing
 };
 
 /// Which edges of a simplified loop are listed.
@@ -62,9 +63,10 @@ struct ListedReceiver {
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
-/// made of.
+/// made of. Stops, cut short, at `mostRecords`.
 CellLists cellLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
-                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges);
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
+                    std::size_t mostRecords = ~std::size_t{0});
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
 /// `farthest`: the least i of any receiver.

@@ -7,8 +7,8 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Beyond this share of the receivers' range of reciprocal heights, and of their rounding, a vertex is farther
-/// than every receiver.
+/// Beyond this share of the receivers' range of reciprocal heights, and of their rounding, a vertex is
+/// farther than every receiver.
 constexpr float kFarMargin = 1e-3f, kFarRounding = 1e-5f;
 
 /// Cuts a closed loop at i = iLow, dropping what is farther from the light.
@@ -85,7 +85,8 @@ void cutFarOutside(std::vector<glm::vec3>& loop, const SubLight& light, const Ta
   const glm::vec2 low = light.center - light.half, high = light.center + light.half;
   const auto isFar = [&](const glm::vec3& p) {
     const float above = p.z - box.iLow, reach = kFarOutside * (size + std::abs(above));
-    const glm::vec2 beyond = glm::max(glm::vec2(p) - box.tHigh - above * high, box.tLow + above * low - glm::vec2(p));
+    const glm::vec2 beyond =
+        glm::max(glm::vec2(p) - box.tHigh - above * high, box.tLow + above * low - glm::vec2(p));
     return std::max(beyond.x, beyond.y) > reach;
   };
   if (std::ranges::none_of(loop, isFar)) return;

@@ -16,8 +16,8 @@ constexpr double kCasterTileShare = 0.5;
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
-/// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x and
-/// y in [0, 1] over the view.
+/// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x
+/// and y in [0, 1] over the view.
 std::array<glm::vec4, 3> pixelRays(const View& view, const glm::dmat4& homogeneousFromWorld) {
   const glm::dmat4 worldFromClip = glm::inverse(view.clipFromWorld);
   const auto direction = [&](double x, double y) {
@@ -48,13 +48,22 @@ FacetPlanes facetPlanes(const ListSpace& space, const glm::dmat4& worldFromObjec
   const bool centred = space.originI > 0.0;
   const glm::dvec3 originObject =
       centred ? inverse * (glm::dvec3(0.0, 0.0, 1.0 / space.originI) - offset) : glm::dvec3(0.0);
-  const glm::dvec4 one = centred ? space.originI * glm::dvec4(originObject, -1.0) : glm::dvec4(inverse[2], 0.0);
+  const glm::dvec4 one =
+      centred ? space.originI * glm::dvec4(originObject, -1.0) : glm::dvec4(inverse[2], 0.0);
   double largest = std::max(glm::length(inverse[0]), glm::length(inverse[1]));
   largest = std::max({largest, glm::length(glm::dvec3(one)), glm::length(lightObject)});
   const double scale = 1.0 / std::max(largest, 1e-300);
   return {{glm::vec3(scale * inverse[0]), glm::vec3(scale * inverse[1])},
           glm::vec4(scale * glm::dvec4(lightObject, -1.0)),
           glm::vec4(scale * one)};
+}
+
+bool isListed(const DrawItem& item, const ListRequest& request) {
+  return request.receivers == ListedReceivers::all || item.casts;
+}
+std::size_t countListed(const LightFrame& frame, const ListRequest& request) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(frame.receivers, [&](const DrawItem& item) { return isListed(item, request); }));
 }
 
 /// Whether faces of the receiver may be seen from behind: it has openings, or the near plane opens it.
@@ -115,8 +124,7 @@ bool LightLists::boundShadows(const LightFrame& frame) {
     }
   }
   shadows_ = shadowedTangents(loops_.subLights(), reach.farthest);
-  const glm::dvec2 size =
-      glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
+  const glm::dvec2 size = glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
   const double longer = std::max(size.x, size.y);
   const bool same = longer == shadowSize_;
   shadowSize_ = longer > 0.0 ? longer : 1.0;
@@ -144,11 +152,13 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       std::min({limits.textureSize, 65536, frame.capabilities.has(gl::Capability::highp) ? 65536 : 1024});
   tileSize_ = finest * std::exp2(doublings_);
   bool changed = !tiles_;
+  const std::size_t mostRecords = static_cast<std::size_t>(maxRows) * kRecordsPerRow;
   for (int attempt = 0; attempt < 8; ++attempt) {
     std::vector<const void*> used;
     std::vector<ReceiverLists> receivers;
+    std::size_t records = 0;
     for (const DrawItem& item : frame.receivers) {
-      if (request.receivers == ListedReceivers::casting && !item.casts) continue;
+      if (!isListed(item, request)) continue;
       Receiver& cached = receivers_[item.geometry];
       const bool seenFromBehind = maySeeBehind(frame.view, item);
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
@@ -163,10 +173,13 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
                            .withPatches = receiver.ownObject != kNoObject},
                           loops_.space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
                           kMaxTiles, loops_.minHeight());
-        cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges);
+        cached.lists = cellLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges,
+                                 mostRecords - records);
         changed = true;
-        if(getenv("DBGL")) { int os=0,al=0; for(auto&r:cached.lists.records){os+=r.oneSided;++al;} fprintf(stderr,"DBG casts %d closed %d behind %d tiles %dx%d partial %zu records %d onesided %d patches %zu origin %g\n",item.casts,item.closed,seenFromBehind,cached.tiles.columns,cached.tiles.rows,cached.lists.partialTiles,al,os,cached.tiles.patches.size(),loops_.space().originI);}
       }
+      // What does not fit is not built to its end.
+      records += cached.lists.records.size();
+      if (cached.lists.cutShort || records > mostRecords) break;
       used.push_back(item.geometry);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
     }
@@ -175,7 +188,8 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     std::ranges::sort(inSomeOrder);
     if (!changed && inSomeOrder == encoded_) return {};
     EncodedLists encoded;
-    if (encodeLists(receivers, maxRows, encoded)) {
+    const bool whole = used.size() == countListed(frame, request);
+    if (whole && encodeLists(receivers, maxRows, encoded)) {
       if (Status s = uploadList(frame.context, encoded.tiles, tiles_); !s) return s;
       if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
@@ -208,8 +222,8 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
     return receiver.second.lists.amongReceivers && !receiver.second.casts;
   });
-  const bool behind =
-      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
+  const bool behind = std::ranges::any_of(
+      receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
   if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");

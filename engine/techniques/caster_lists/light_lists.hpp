@@ -28,9 +28,9 @@ struct ListRequest {
   std::string_view tilesKey;  ///< the setting that says so, for messages
 };
 
-/// What shaders with list_vertices.glsl need to know of a fragment's place: the least height of a receiver; by
-/// how many steps vertices are nearer to its height than stored; by how many steps, and by what share of its
-/// (t, i), it stands off its facet.
+/// What shaders with list_vertices.glsl need to know of a fragment's place: the least height of a receiver;
+/// by how many steps vertices are nearer to its height than stored; by how many steps, and by what share of
+/// its (t, i), it stands off its facet.
 glm::vec4 listPlace(const LightFrame& frame, double minHeight);
 
 /// Into `texture`, made anew when the size differs. Errors: outOfMemory.

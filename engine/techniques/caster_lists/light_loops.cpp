@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "planner/frame_planner.hpp"
+#include "techniques/caster_lists/enclosed_casters.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -37,7 +38,7 @@ ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> cast
     }
   }
   const glm::dvec3 middle = 0.5 * (low + high);
-  if (getenv("NOC") || !(high.z - middle.z <= kShallow * middle.z)) return space;
+  if (!(high.z - middle.z <= kShallow * middle.z)) return space;
   space.originT = glm::dvec2(middle) / middle.z;
   space.originI = 1.0 / middle.z;
   return space;
@@ -55,11 +56,21 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
   const scene::LightPlane& plane = space_.plane;
   minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;
   const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
+  const std::vector<bool> enclosed = enclosedCasters(casters, frame.light);
+  std::vector<scene::PlacedCaster> shown;
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    if (!enclosed[k]) shown.push_back(casters[k]);
+  }
+  if (shown.size() < casters.size()) {
+    frame.graph.noteSkipped(std::to_string(casters.size() - shown.size()) + " casters of light " +
+                                std::to_string(frame.lightIndex),
+                            "they lie inside another caster, which hides all that they hide");
+  }
   subLights_.clear();
   silhouettes_.resize(subLights.size());
   for (std::size_t i = 0; i < subLights.size(); ++i) {
     const SubLight& subLight = subLights[i];
-    subLights_.push_back(loopsOf(silhouettes_[i].update(casters, plane, subLight.center.x, subLight.center.y,
+    subLights_.push_back(loopsOf(silhouettes_[i].update(shown, plane, subLight.center.x, subLight.center.y,
                                                         minHeight_, scene::LayerSplit::alongside),
                                  casters, subLight, space_));
   }

@@ -234,6 +234,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
       if (pointOf[v] != kNoFacet) continue;
       abh[v] = lightFromObject * glm::dvec3(mesh.positions()[v]) + offset;
       pointOf[v] = isAbove(v) ? addPoint(abh[v]) : kBelow;
+      surface.cut |= !isAbove(v);
     }
     corners.clear();
     for (int k = 0; k < 3; ++k) {
@@ -324,8 +325,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
                       std::vector<std::uint32_t>& result) {
   result.clear();
   const OuterSides outer(light, receivers.box);
-  const bool lightBefore = choice == FacetChoice::asReceiversSee && !receivers.patches.empty() &&
-                           lightIsBefore(receivers, light);
+  const bool lightBefore =
+      choice == FacetChoice::asReceiversSee && !receivers.patches.empty() && lightIsBefore(receivers, light);
   for (const std::uint32_t f : candidates) {
     const NearSurface::Facet& facet = surface.facets[f];
     if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
@@ -345,8 +346,25 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
   }
 }
 
+Interior interiorOf(const NearSurface& surface, const TangentBox& receivers) {
+  if (!surface.closed || !surface.convex || surface.cut || surface.facets.empty()) return Interior::outside;
+  bool inside = true;
+  for (const NearSurface::Facet& facet : surface.facets) {
+    const int side = sideOf(facet.plane, receivers);
+    if (side > 0) return Interior::outside;
+    inside &= side < 0;
+  }
+  return inside ? Interior::inside : Interior::unknown;
+}
+
+bool hidesFromInside(const NearSurface& surface, const SubLight& light) {
+  return std::ranges::any_of(surface.facets,
+                             [&](const NearSurface::Facet& facet) { return sideOf(facet.plane, light) > 0; });
+}
+
 OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const ReceiverSet& receivers) {
-  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty()) return OwnHorizon::unknown;
+  if (!surface.closed || !surface.convex || !surface.whole || receivers.patches.empty())
+    return OwnHorizon::unknown;
   bool before = true, behind = true;
   for (const ReceiverPatch& patch : receivers.patches) {
     const int side = sideOf(patch.plane, light);

@@ -57,6 +57,7 @@ struct NearSurface {
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
   bool whole = false;   ///< the caster has no other part
+  bool cut = false;     ///< it reaches through the light's plane
 };
 
 /// What reaches through the plane h = minHeight is cut there.
@@ -108,6 +109,12 @@ void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
 void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
                       const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
                       std::vector<std::uint32_t>& result);
+
+/// Where receivers stand of a closed convex surface; `outside` also of one that is not, or was cut.
+enum class Interior { inside, outside, unknown };
+Interior interiorOf(const NearSurface& surface, const TangentBox& receivers);
+/// Whether all of the light's part lies outside of it.
+bool hidesFromInside(const NearSurface& surface, const SubLight& light);
 
 /// What a convex surface hides of a part of the light from receivers on it: what lies behind their own facet.
 enum class OwnHorizon {

@@ -199,7 +199,8 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
   }
   if (polygons.empty()) return tiles;
   tiles.low = glm::max(reached.low, shadows.low);
-  const glm::dvec2 size = glm::max(glm::min(reached.high, shadows.high) - tiles.low, glm::dvec2(1e-6 * tileSize));
+  const glm::dvec2 size =
+      glm::max(glm::min(reached.high, shadows.high) - tiles.low, glm::dvec2(1e-6 * tileSize));
   const auto count = [&](double length) {
     return std::clamp(static_cast<int>(std::ceil(length / tileSize)), 1, maxTiles);
   };
@@ -219,7 +220,8 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
       box.tHigh = glm::vec2(low + 1.001 * tiles.tileSize);
       if (box.empty()) continue;
       // Fragments are lifted after their tile was found.
-      const glm::vec2 lift = static_cast<float>(kPlaceRounding) * glm::max(glm::abs(box.tLow), glm::abs(box.tHigh));
+      const glm::vec2 lift =
+          static_cast<float>(kPlaceRounding) * glm::max(glm::abs(box.tLow), glm::abs(box.tHigh));
       box.tLow -= lift;
       box.tHigh += lift;
     }

@@ -5,8 +5,8 @@
 /// (scene::LightPlane), a point is (t, i) = (a/h, b/h, 1/h). Seen from a receiver P, a point E in front of it
 /// projects onto the light at (tE - tP) / (iE - iP): two subtractions and a division, linear in E and in P
 /// before the division, and planes stay planes. The light is the square [-1, 1]².
-/// Only differences matter, so that the origin of (t, i) is free: far from the light it lies among the casters,
-/// or single precision would not tell a caster's height from a receiver's.
+/// Only differences matter, so that the origin of (t, i) is free: far from the light it lies among the
+/// casters, or single precision would not tell a caster's height from a receiver's.
 #pragma once
 
 #include <array>
@@ -39,10 +39,10 @@ struct ListSpace {
   glm::dvec4 planeThrough(const glm::dvec3& normalWorld, const glm::dvec3& relative) const {
     const double x = glm::dot(normalWorld, plane.halfU), y = glm::dot(normalWorld, plane.halfV);
     const double w = -glm::dot(normalWorld, relative);
-    return {x, y,
-            plane.heightUnit * glm::dot(normalWorld, plane.normal) + x * originT.x + y * originT.y +
-                w * originI,
-            w};
+    return {
+        x, y,
+        plane.heightUnit * glm::dot(normalWorld, plane.normal) + x * originT.x + y * originT.y + w * originI,
+        w};
   }
   /// Rows that make (t, i) of a point in the world: (t, i) = (x, y, z) / w.
   glm::dmat4 homogeneousFromWorld() const;
@@ -53,8 +53,8 @@ inline glm::dvec3 tangentPoint(const glm::dvec3& abh) {
 }
 
 /// Single precision, and what a rasteriser makes of it, knows a fragment's (t, i) to this share. Fragments of
-/// casters stand off their own facets by so much, and by a step of the list's vertices: less than either could
-/// put them on the wrong side.
+/// casters stand off their own facets by so much, and by a step of the list's vertices: less than either
+/// could put them on the wrong side.
 inline constexpr double kPlaceRounding = 1e-6;
 
 /// The receivers of one tile: all points with tangents in [tLow, tHigh] and reciprocal heights in
