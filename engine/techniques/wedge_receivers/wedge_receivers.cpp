@@ -243,6 +243,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
   // Subtracted in double: from a far light the places of receivers differ by little.
   const glm::dmat4 anchorFromWorld = glm::inverse(worldFromAnchor(volumes.plane));
   const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.unitHeightWorld());
+  const double least = kNearOfDistance / glm::length(volumes.plane.toUnitHeight);
   gl::Program* current = nullptr;
   for (const ReceiverDraw& draw : draws) {
     const DrawItem& item = items[draw.item];
@@ -250,7 +251,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
     if (&program != current) {
       current = &program;
       encoder.useProgram(program);
-      program.set(gl, "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
+      program.set(gl, "u_wedgeSteps", glm::vec4(steps, least, 0, 0));
       program.set(gl, "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
       program.set(gl, "u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
       program.set(gl, "u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 0.0f));
