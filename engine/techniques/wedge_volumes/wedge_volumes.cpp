@@ -42,7 +42,7 @@ struct Vertex {
   /// Of the piece, in steps of the grid from the centre.
   std::array<float, kPieceVertices> a, b, h;
   glm::vec3 center;  ///< in units of kCenterSteps
-  float step;        ///< of the grid
+  float stepExponent;  ///< of the grid's step, a power of two
 };
 constexpr int kStride = sizeof(Vertex);
 
@@ -70,7 +70,7 @@ std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, do
     const WedgePiece& piece = pieces.pieces[p];
     Vertex vertex;
     const double step = volumes.stepsPerUnit * piece.step;
-    vertex.step = static_cast<float>(step);
+    vertex.stepExponent = static_cast<float>(std::round(std::log2(step)));
     const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
       const std::size_t index = piece.firstVertex + std::min<std::size_t>(i, piece.vertexCount - 1);
