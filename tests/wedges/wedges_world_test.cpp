@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// What else the world holds changes no penumbra: wide grounds, far casters, a light's distance, seams of a mesh,
-// a floor that is there twice.
+// What else the world holds changes no penumbra: wide grounds, far casters, a light's distance, seams of a
+// mesh, a floor that is there twice.
 #include <algorithm>
 #include <cmath>
 #include <ostream>
@@ -128,7 +128,8 @@ TEST_P(WedgesWorld, PiecesOfOneThingCastAsTheThing) {
   for (std::size_t i = 0; i < count; ++i) {
     // Those that stand before the ones already split.
     std::size_t first = 0;
-    while (first < scene.objects.size() && (scene.objects[first].name == "piece" || !scene.objects[first].casts))
+    while (first < scene.objects.size() &&
+           (scene.objects[first].name == "piece" || !scene.objects[first].casts))
       ++first;
     if (first < scene.objects.size()) splitObject(scene, first);
   }

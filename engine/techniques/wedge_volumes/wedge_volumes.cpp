@@ -41,7 +41,7 @@ struct Vertex {
   glm::vec3 corner;
   /// Of the piece, in steps of the grid from the centre.
   std::array<float, kPieceVertices> a, b, h;
-  glm::vec3 center;  ///< in units of kCenterSteps
+  glm::vec3 center;    ///< in units of kCenterSteps
   float stepExponent;  ///< of the grid's step, a power of two
 };
 constexpr int kStride = sizeof(Vertex);
@@ -159,8 +159,8 @@ const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   volumes.farthest = farthest;
   volumes.reach = reach;
   // What a caster covers at all counts once, however often it covers it.
-  const scene::LightSilhouettes& silhouettes =
-      volumes.silhouettes.update(placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+  const scene::LightSilhouettes& silhouettes = volumes.silhouettes.update(
+      placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
@@ -182,7 +182,8 @@ Status WedgeVolumeCache::upload(const LightFrame& frame, const ReceiverDepth& de
   volumes.streamKey = 0;
   const bool highp = frame.capabilities.has(gl::Capability::highp);
   volumes.stepsPerUnit = highp ? 1.0 : kStepsWithoutHighp;
-  const std::vector<Vertex> stream = vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, sure, ends);
+  const std::vector<Vertex> stream =
+      vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, sure, ends);
   if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                                std::as_bytes(std::span(stream)));
       !s) {
@@ -205,7 +206,8 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromAnchor(plane)));
   const glm::dvec3& units = volumes.pieces.units;
   const double sizeUnits = kGridSteps / volumes.stepsPerUnit;
-  program.set(encoder.context(), "u_pieceGrid", glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
+  program.set(encoder.context(), "u_pieceGrid",
+              glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
   program.set(encoder.context(), "u_pieceScale",
               glm::vec4(units.x / units.y, units.y / sizeUnits,
                         kNearOfDistance * depth.farthest / glm::length(plane.toUnitHeight), 0.0));

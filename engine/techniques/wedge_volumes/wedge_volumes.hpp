@@ -27,8 +27,8 @@ struct WedgeVolumes {
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   scene::LightSilhouetteCache silhouettes;
   WedgePieces pieces;
-  bool lightEnclosed = false;  ///< a closed caster stands around the light's centre: nothing outside is lit
-  double stepsPerUnit = 1.0;  ///< of the vertex stream: 1 where fragments have highp
+  bool lightEnclosed = false;   ///< a closed caster stands around the light's centre: nothing outside is lit
+  double stepsPerUnit = 1.0;    ///< of the vertex stream: 1 where fragments have highp
   std::uint64_t streamKey = 0;  ///< of what the buffers hold
   bool trimmed = false;         ///< volumes end before the farthest receiver
   bool small = false;           ///< by more than half of their length, on average
