@@ -19,8 +19,7 @@ HS_HIGHP float hs_halved(HS_HIGHP float value, HS_HIGHP float bit, HS_HIGHP floa
 }
 
 // Bytes as integers, then the distance in steps that every precision represents, half a step above the stored one.
-HS_HIGHP vec3 hs_positionOf(HS_HIGHP vec4 stored) {
-  HS_HIGHP vec2 window = gl_FragCoord.xy;
+HS_HIGHP float hs_distanceOf(HS_HIGHP vec4 stored) {
   HS_HIGHP vec3 bytes = floor(stored.rgb * 255.0 + 0.5);
   HS_HIGHP float exponent = floor(bytes.x * 0.125 + 0.0625);
   HS_HIGHP float mantissa = ((bytes.z + 0.5) * (1.0 / 256.0) + bytes.y) * (1.0 / 256.0) + bytes.x - 8.0 * exponent;
@@ -37,9 +36,12 @@ HS_HIGHP vec3 hs_positionOf(HS_HIGHP vec4 stored) {
   bit = step(1.5, exponent);
   along = hs_halved(along, bit, 1.0 / 4.0);
   exponent -= 2.0 * bit;
-  along = hs_halved(along, exponent, 1.0 / 2.0) + u_receiverRay.w;
+  return hs_halved(along, exponent, 1.0 / 2.0) + u_receiverRay.w;
+}
+HS_HIGHP vec3 hs_positionOf(HS_HIGHP vec4 stored) {
+  HS_HIGHP vec2 window = gl_FragCoord.xy;
   HS_HIGHP vec3 ray = u_receiverRay.xyz + window.x * u_receiverRayX.xyz + window.y * u_receiverRayY.xyz;
-  return u_receiverEye.xyz + along * ray;
+  return u_receiverEye.xyz + hs_distanceOf(stored) * ray;
 }
 HS_HIGHP vec3 hs_receiverPosition() { return hs_positionOf(hs_storedReceiver()); }
 

@@ -8,6 +8,6 @@
 uniform HS_HIGHP vec4 u_wedgeSteps;  // x: steps of full coverage, y: 1 where receivers of few triangles are not asked
 void main() {
   HS_HIGHP vec4 stored = hs_storedReceiver();
-  HS_HIGHP float coverage = hs_pieceCoverage(hs_positionOf(stored)) * (1.0 - u_wedgeSteps.y * hs_markOf(stored));
+  HS_HIGHP float coverage = hs_pieceCoverage(hs_positionOf(stored), hs_distanceOf(stored)) * (1.0 - u_wedgeSteps.y * hs_markOf(stored));
   gl_FragColor = hs_encodePiece(coverage, u_wedgeSteps.x);
 }

@@ -3,8 +3,9 @@
 // The integral of x dy along a piece of silhouette as a receiver sees it on the light's plane, with x and y clamped to
 // the light's square. Exact, continuous in the receiver's position, and additive: pieces that share a chord cancel
 // along it. Programs whose vertices come projected, as varyings, define HS_WEDGE_PROJECTED.
-// `w`, the height of the receiver above a vertex in units of the caster's size, must exceed HS_WEDGE_NEAR for the vertex
-// to occlude. Receivers are split in two by the heights where all vertices do, which is the rule.
+// `w`, the height of the receiver above a vertex in units of the caster's size, must exceed `near`, at least
+// HS_WEDGE_NEAR, for the vertex to occlude. Receivers are split in two by the heights where all vertices do, which is
+// the rule.
 #ifdef HS_NO_HIGHP
 #define HS_WEDGE_ALL_NEAR 4e-3
 #define HS_WEDGE_FLAT 1e-2
@@ -37,19 +38,19 @@ void hs_bound(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y) {
 #ifdef HS_WEDGE_PROJECTED
 // (x w, y w), w: relative precision is all that counts, and no quotient overflows.
 void hs_project(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y, HS_HIGHP vec4 w, HS_HIGHP vec2 foot,
-                HS_HIGHP float scale) {
+                HS_HIGHP float scale, HS_HIGHP float near) {
 #ifdef HS_NO_HIGHP
   w = max(w, max(abs(x), abs(y)) * (1.0 / 60.0));
 #endif
-  HS_HIGHP vec4 inverse = 1.0 / max(w, HS_WEDGE_NEAR);
+  HS_HIGHP vec4 inverse = 1.0 / max(w, near);
   x *= inverse;
   y *= inverse;
 }
 #else
 // Relative to the receiver; `scale` turns that into offsets on the light's plane, from `foot`.
 void hs_project(inout HS_HIGHP vec4 x, inout HS_HIGHP vec4 y, HS_HIGHP vec4 w, HS_HIGHP vec2 foot,
-                HS_HIGHP float scale) {
-  HS_HIGHP vec4 inverse = scale / max(w, HS_WEDGE_NEAR);
+                HS_HIGHP float scale, HS_HIGHP float near) {
+  HS_HIGHP vec4 inverse = scale / max(w, near);
   x = x * inverse + foot.x;
   y = y * inverse + foot.y;
 #ifdef HS_NO_HIGHP
@@ -86,7 +87,7 @@ HS_HIGHP float hs_edgeIntegrals(HS_HIGHP vec4 xa, HS_HIGHP vec4 ya, HS_HIGHP vec
 }
 
 #ifdef HS_WEDGE_CLIP
-// Vertices and the points where edges pass HS_WEDGE_NEAR, in order; what is cut away becomes a copy of its
+// Vertices and the points where edges pass `near`, in order; what is cut away becomes a copy of its
 // neighbour, so that a chord closes the rest.
 HS_HIGHP vec2 hs_keep(HS_HIGHP vec2 last, HS_HIGHP vec2 point, HS_HIGHP float kept) {
   return kept > 0.5 ? point : last;
@@ -115,18 +116,19 @@ void hs_keepForwards(inout HS_HIGHP vec2 last, HS_HIGHP vec2 x, HS_HIGHP vec2 y,
 
 // x, y: vertices as hs_project() takes them.
 HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP vec4 y0, HS_HIGHP vec4 y1,
-                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale) {
-  HS_HIGHP vec4 in0 = step(HS_WEDGE_NEAR, w0), in1 = step(HS_WEDGE_NEAR, w1);
+                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale,
+                                  HS_HIGHP float near) {
+  HS_HIGHP vec4 in0 = step(near, w0), in1 = step(near, w1);
   HS_HIGHP vec4 beforeW0 = vec4(w1.w, w0.xyz), beforeW1 = vec4(w0.w, w1.xyz);
   HS_HIGHP vec4 cut0 = abs(in0 - vec4(in1.w, in0.xyz)), cut1 = abs(in1 - vec4(in0.w, in1.xyz));
-  HS_HIGHP vec4 t0 = (HS_WEDGE_NEAR - beforeW0) / hs_select(vec4(1.0), w0 - beforeW0, cut0);
-  HS_HIGHP vec4 t1 = (HS_WEDGE_NEAR - beforeW1) / hs_select(vec4(1.0), w1 - beforeW1, cut1);
+  HS_HIGHP vec4 t0 = (near - beforeW0) / hs_select(vec4(1.0), w0 - beforeW0, cut0);
+  HS_HIGHP vec4 t1 = (near - beforeW1) / hs_select(vec4(1.0), w1 - beforeW1, cut1);
   HS_HIGHP vec4 cutX0 = mix(vec4(x1.w, x0.xyz), x0, t0), cutX1 = mix(vec4(x0.w, x1.xyz), x1, t1);
   HS_HIGHP vec4 cutY0 = mix(vec4(y1.w, y0.xyz), y0, t0), cutY1 = mix(vec4(y0.w, y1.xyz), y1, t1);
-  hs_project(x0, y0, w0, foot, scale);
-  hs_project(x1, y1, w1, foot, scale);
-  hs_project(cutX0, cutY0, vec4(HS_WEDGE_NEAR), foot, scale);
-  hs_project(cutX1, cutY1, vec4(HS_WEDGE_NEAR), foot, scale);
+  hs_project(x0, y0, w0, foot, scale, near);
+  hs_project(x1, y1, w1, foot, scale, near);
+  hs_project(cutX0, cutY0, vec4(near), foot, scale, near);
+  hs_project(cutX1, cutY1, vec4(near), foot, scale, near);
   // What is cut away before the first point that stays becomes that point: found by going backwards.
   HS_HIGHP vec2 last = hs_keepBackwards(vec2(0.0), x1, y1, in1, cutX1, cutY1, cut1);
   last = hs_keepBackwards(last, x0, y0, in0, cutX0, cutY0, cut0);
@@ -142,9 +144,10 @@ HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP v
 }
 #else
 HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP vec4 y0, HS_HIGHP vec4 y1,
-                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale) {
-  hs_project(x0, y0, w0, foot, scale);
-  hs_project(x1, y1, w1, foot, scale);
+                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale,
+                                  HS_HIGHP float near) {
+  hs_project(x0, y0, w0, foot, scale, near);
+  hs_project(x1, y1, w1, foot, scale, near);
   return hs_edgeIntegrals(x0, y0, vec4(x0.yzw, x1.x), vec4(y0.yzw, y1.x)) +
          hs_edgeIntegrals(x1, y1, vec4(x1.yzw, x0.x), vec4(y1.yzw, y0.x));
 }

@@ -10,7 +10,10 @@ varying HS_HIGHP vec4 v_pieceY0;
 varying HS_HIGHP vec4 v_pieceY1;
 varying HS_HIGHP vec4 v_pieceW0;
 varying HS_HIGHP vec4 v_pieceW1;
-uniform HS_HIGHP vec4 u_wedgeSteps;  // x: steps of full coverage
+uniform HS_HIGHP vec4 u_wedgeSteps;  // x: steps of full coverage, y: least height that tells over distance from the eye
+#if defined(HS_WEDGE_CLIP) && !defined(HS_WEDGE_EXACT)
+varying HS_HIGHP float v_inverseSize;
+#endif
 #ifdef HS_WEDGE_EXACT
 // Rasterisers snap vertices, some to a sixteenth of a pixel, and interpolate to match: a narrow penumbra shows that.
 // The pixel's own ray meets the facet where it should.
@@ -49,6 +52,15 @@ void main() {
   w0 += moved.z * v_place.w;
   w1 += moved.z * v_place.w;
 #endif
-  HS_HIGHP float integral = hs_polygonIntegral(x0, x1, y0, y1, w0, w1, vec2(0.0), 1.0);
+  HS_HIGHP float near = HS_WEDGE_NEAR;
+#ifdef HS_WEDGE_CLIP
+#ifdef HS_WEDGE_EXACT
+  HS_HIGHP float inverseSize = v_place.w;
+#else
+  HS_HIGHP float inverseSize = v_inverseSize;
+#endif
+  near = max(near, u_wedgeSteps.y * inverseSize / gl_FragCoord.w);
+#endif
+  HS_HIGHP float integral = hs_polygonIntegral(x0, x1, y0, y1, w0, w1, vec2(0.0), 1.0, near);
   gl_FragColor = hs_encodePiece(0.25 * integral, u_wedgeSteps.x);
 }

@@ -34,6 +34,9 @@ uniform highp mat4 u_lightFromObject;
 uniform highp vec4 u_piece[6];  // a, b and h - 1 of four vertices and four more
 uniform highp float u_pieceInverseSize;
 #endif
+#if defined(HS_WEDGE_CLIP) && !defined(HS_WEDGE_EXACT)
+varying highp float v_inverseSize;
+#endif
 // The same depth as that of the pass which finds the visible surface.
 invariant gl_Position;
 
@@ -41,6 +44,9 @@ void main() {
   highp vec4 position = vec4(a_position.xyz, 1.0);
   gl_Position = u_clipFromObject * position;
 #ifdef HS_WEDGE_FOOTPRINT
+#if defined(HS_WEDGE_CLIP) && !defined(HS_WEDGE_EXACT)
+  v_inverseSize = a_position.w;
+#endif
   v_pieceX0 = a_extra0;
   v_pieceX1 = a_extra1;
   v_pieceY0 = a_extra2;
@@ -52,6 +58,9 @@ void main() {
   v_facet = a_texcoord;
 #endif
 #else
+#ifdef HS_WEDGE_CLIP
+  v_inverseSize = u_pieceInverseSize;
+#endif
   highp vec3 place = (u_lightFromObject * position).xyz;
   v_pieceX0 = (u_piece[0] - place.x + place.z * u_piece[0] - place.x * u_piece[4]) * u_pieceInverseSize;
   v_pieceX1 = (u_piece[1] - place.x + place.z * u_piece[1] - place.x * u_piece[5]) * u_pieceInverseSize;

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // A corner of a wedge's volume, with the eight vertices of its piece of silhouette: a, b and h in steps of the caster's
 // grid, relative to a centre in units of 64 steps. All are whole numbers, so that the fragment shader can round away
-// what interpolation adds to constants. The centre comes with the length of a step.
+// what interpolation adds to constants. The centre comes with the exponent of a step.
 attribute highp vec3 a_position;
 attribute highp vec4 a_extra0;
 attribute highp vec4 a_extra1;

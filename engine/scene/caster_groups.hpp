@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Casters whose open borders coincide, as one: the primitives of a mesh of two materials, the walls of a room.
-/// Taken alone, each would have a silhouette along the cut, where nothing casts an edge.
+/// Casters whose open borders coincide, as one: the primitives of a mesh of two materials, the walls of a
+/// room. Taken alone, each would have a silhouette along the cut, where nothing casts an edge.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,8 @@ class CasterGroups {
   void update(std::span<const SceneCaster> casters, std::uint64_t key = 0);
   /// Whether the last update() had this key.
   bool holds(std::uint64_t key) const { return key != 0 && key == key_; }
-  /// Each caster that stands alone, and each group once, by first members; `object` is the index in this list.
+  /// Each caster that stands alone, and each group once, by first members; `object` is the index in this
+  /// list.
   std::span<const PlacedCaster> placed() const { return placed_; }
   /// In placed(), of the i-th caster of the last update().
   std::uint32_t placedOf(std::size_t i) const { return placedOf_[i]; }

@@ -135,8 +135,8 @@ struct Silhouette {
   struct Part {
     std::uint32_t part = 0;  ///< in HalfEdgeMesh::parts()
     std::uint32_t firstLoop = 0, loopCount = 0;
-    bool enclosesLight = false;  ///< the point lies inside this closed part
-    bool turnedAway = false;     ///< the side of a sheet whose faces look away from the point
+    bool enclosesLight = false;      ///< the point lies inside this closed part
+    bool turnedAway = false;         ///< the side of a sheet whose faces look away from the point
     std::uint32_t region = kNoFace;  ///< of that side, see `regions`; kNoFace: all of it
   };
   std::vector<std::uint32_t> vertices;  ///< welded

@@ -24,7 +24,8 @@ struct LightPlane {
   /// `heightUnitWorld`: world length of h = 1, best the largest distance of a receiver from the light's
   /// plane.
   LightPlane(const AreaLight& light, double heightUnitWorld, double minHalfLength);
-  /// `toUnitHeightWorld`: from the light's centre to the point (0, 0, 1), on the lit side; see light_anchor.hpp.
+  /// `toUnitHeightWorld`: from the light's centre to the point (0, 0, 1), on the lit side; see
+  /// light_anchor.hpp.
   LightPlane(const AreaLight& light, const glm::dvec3& toUnitHeightWorld, double minHalfLength);
   glm::dvec3 fromWorld(const glm::dvec3& pointWorld) const { return axes * (pointWorld - centerWorld); }
   glm::dvec3 toWorld(const glm::dvec3& abh) const;
@@ -34,7 +35,7 @@ struct LightPlane {
 
   glm::dvec3 centerWorld{0.0}, halfU{1, 0, 0}, halfV{0, 1, 0}, normal{0, 0, 1}, toUnitHeight{0, 0, 1};
   double heightUnit = 1.0;  ///< world distance of h = 1 from the light's plane
-  glm::dmat3 axes{1.0};  ///< (a, b, h) = axes · (world - centerWorld)
+  glm::dmat3 axes{1.0};     ///< (a, b, h) = axes · (world - centerWorld)
 };
 
 /// A caster's mesh where it stands.

@@ -107,7 +107,8 @@ bool looksInto(const HalfEdgeMesh& mesh, const EdgeRecord& edge, Side side) {
   double above = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double height =
-        glm::dot(glm::dvec3(plane), glm::dvec3(mesh.positions()[beyond[k]]) - mesh.origin()) + double(plane.w);
+        glm::dot(glm::dvec3(plane), glm::dvec3(mesh.positions()[beyond[k]]) - mesh.origin()) +
+        double(plane.w);
     if (std::abs(height) > std::abs(above)) above = height;
   }
   return side == Side::facing ? above > 0.0 : above < 0.0;
@@ -122,9 +123,8 @@ std::uint32_t findRegions(const HalfEdgeMesh& mesh, const CasterPart& part, Side
   const auto inner = [&](const EdgeRecord& edge) {
     return edge.opposite != kNoFace && within(edge.face) && within(edge.opposite);
   };
-  if (std::ranges::none_of(edges, [&](const EdgeRecord& edge) {
-        return inner(edge) && looksInto(mesh, edge, side);
-      })) {
+  if (std::ranges::none_of(
+          edges, [&](const EdgeRecord& edge) { return inner(edge) && looksInto(mesh, edge, side); })) {
     return 1;
   }
   DisjointSets sets(part.faceCount);

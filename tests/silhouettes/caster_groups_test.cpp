@@ -43,7 +43,9 @@ std::vector<Triangles> cutInTwo(const Triangles& whole, const glm::vec3& normal)
     glm::vec3 middle(0.0f);
     for (std::size_t k = 0; k < 3; ++k) middle += whole.positions[whole.indices[3 * t + k]];
     Triangles& half = halves[glm::dot(middle, normal) > 0.05f];
-    const auto corner = [&](std::size_t k) { return half.addVertex(whole.positions[whole.indices[3 * t + k]]); };
+    const auto corner = [&](std::size_t k) {
+      return half.addVertex(whole.positions[whole.indices[3 * t + k]]);
+    };
     half.addTriangle(corner(0), corner(1), corner(2));
   }
   return halves;
@@ -120,7 +122,7 @@ TEST(CasterGroups, PiecesMayHaveFramesOfTheirOwn) {
 TEST(CasterGroups, WhatOnlyComesNearStaysAlone) {
   Pieces pieces;
   pieces.add(cube(), glm::dmat4(1.0));
-  pieces.add(cube(), glm::translate(glm::dmat4(1.0), {2.0, 0.0, 0.0}));   // closed, face to face
+  pieces.add(cube(), glm::translate(glm::dmat4(1.0), {2.0, 0.0, 0.0}));  // closed, face to face
   pieces.add(sheet(2), glm::translate(glm::dmat4(1.0), {9.0, 0.0, 0.0}));
   pieces.add(sheet(2), glm::translate(glm::dmat4(1.0), {11.001, 0.0, 0.0}));  // a visible gap
   pieces.add(sheet(2), glm::translate(glm::dmat4(1.0), {13.001, 0.0, 2.0}));  // one corner
@@ -138,7 +140,8 @@ TEST(CasterGroups, WhatOnlyComesNearStaysAlone) {
 TEST(CasterGroups, WallsOfOtherSubdivisionMeetAtTheirCorners) {
   Pieces pieces;
   pieces.add(sheet(3), glm::dmat4(1.0));
-  pieces.add(sheet(5), glm::rotate(glm::translate(glm::dmat4(1.0), {1.0, 1.0, 0.0}), std::acos(0.0), {0, 0, 1}));
+  pieces.add(sheet(5),
+             glm::rotate(glm::translate(glm::dmat4(1.0), {1.0, 1.0, 0.0}), std::acos(0.0), {0, 0, 1}));
   CasterGroups groups;
   groups.update(pieces.casters);
   ASSERT_EQ(groups.placed().size(), 1u);

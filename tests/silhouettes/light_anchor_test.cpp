@@ -26,9 +26,8 @@ TEST(LightAnchor, SinglePrecisionHoldsCastersUnderLampsAndSuns) {
   for (const double distance : {0.5, 3.0, 1e2, 1e4, 1e7}) {
     for (int round = 0; round < 50; ++round) {
       const glm::dvec3 target = random.inBox(20.0), from = random.direction();
-      const auto light =
-          scene::areaLightAimed(target + from * (distance + 2.0), target, 0.1 * distance, 0.2 * distance,
-                                random.direction());
+      const auto light = scene::areaLightAimed(target + from * (distance + 2.0), target, 0.1 * distance,
+                                               0.2 * distance, random.direction());
       ASSERT_TRUE(light);
       const std::vector<Bounds> casters = {boxAt(target, 1.0), boxAt(target - 50.0 * from, 7.0)};
       const scene::LightPlane plane(*light, scene::toAnchor(*light, casters), 0.0);

@@ -153,7 +153,7 @@ TEST(LightSilhouettes, CastersThroughTheLightPlaneAreCut) {
   scene::lightSilhouettes({&beside, 1}, plane, 0.5, 0.5, kMinHeight, result);
   ASSERT_EQ(result.loops.size(), 1u);
   int onCut = 0;
-  for (const glm::vec3& p : result.points) {
+  for (const glm::dvec3& p : result.points) {
     EXPECT_GE(p.z, static_cast<float>(kMinHeight) * 0.999f);
     onCut += p.z < kMinHeight * 1.001;
   }

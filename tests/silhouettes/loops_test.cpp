@@ -120,8 +120,15 @@ TEST(Loops, TheSidesOfASheetAreApart) {
   ASSERT_EQ(silhouette.parts.size(), 2u);
   EXPECT_NE(silhouette.parts[0].turnedAway, silhouette.parts[1].turnedAway);
   EXPECT_EQ(silhouette.loops.size(), 2u);
+  // Seen from inside the fold its outline would cover receivers before the squares: each has its own.
   scene::extractSilhouette(bent, {0.1, 4, 3}, silhouette);
+  ASSERT_EQ(silhouette.parts.size(), 2u);
+  for (const Silhouette::Part& part : silhouette.parts) EXPECT_FALSE(part.turnedAway);
+  for (const Silhouette::Loop& loop : silhouette.loops) EXPECT_EQ(loop.count, 4u);
+  // From outside the fold is a ridge, and the outline is that of both.
+  scene::extractSilhouette(bent, {0.1, -3, -4}, silhouette);
   ASSERT_EQ(silhouette.parts.size(), 1u);
+  EXPECT_TRUE(silhouette.parts[0].turnedAway);
   EXPECT_EQ(silhouette.loops[0].count, 6u);
 }
 

@@ -80,8 +80,10 @@ TEST_F(WedgesRoutes, AutoBoundsTheDrawsOfDenseReceivers) {
   EXPECT_EQ(renderer().report().draws, onScreen + 1u);
 }
 
-// Ground pixels differ by the rounding of 24-bit depth: a step of 255. ANGLE's rasteriser snaps vertices to a
-// sixteenth of a pixel, which footprints make good and depth does not.
+// Ground pixels differ by the rounding of stored depth: a step of 255. So do casters, but for faces whose
+// plane passes through the light: how much of it is above the face turns with the place of the receiver (1 %
+// of the pixels, by up to 9 of 255; without depth they are within 1 of the truth). ANGLE's rasteriser snaps
+// vertices to a sixteenth of a pixel, which footprints make good and depth does not.
 TEST_F(WedgesRoutes, AllGiveOneImage) {
   if (isForcedOff("highp")) GTEST_SKIP() << "highp is forced off: on the screen positions have 11 bits";
   for (const char* technique : {"wedges", "wedges-probabilistic"}) {
@@ -105,7 +107,8 @@ TEST_F(WedgesRoutes, AllGiveOneImage) {
                     differing, ground, largest, othersDiffering, others);
         EXPECT_LE(differing, onAngle() ? ground / 100 : 0) << technique << " " << scene << " " << route;
         EXPECT_LE(largest, onAngle() ? 12 : 2) << technique << " " << scene << " " << route;
-        EXPECT_LE(othersDiffering, onAngle() ? others / 12 : 0) << technique << " " << scene << " " << route;
+        EXPECT_LE(othersDiffering, onAngle() ? others / 12 : others / 100)
+            << technique << " " << scene << " " << route;
       }
     }
   }

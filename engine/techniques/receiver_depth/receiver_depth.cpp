@@ -3,8 +3,10 @@
 #include "techniques/receiver_depth/receiver_depth.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <limits>
+#include <vector>
 
 namespace halfshadow::techniques {
 namespace {
@@ -55,6 +57,46 @@ glm::dmat4 withoutFarPlane(const glm::dmat4& clipFromWorld) {
   for (int column = 0; column < 4; ++column) result[column][2] = w[column];
   result[3][2] -= 2.0 * near;
   return result;
+}
+
+/// Keeps the part of a polygon where `distance` is not negative.
+void cutPolygon(std::vector<glm::dvec4>& polygon, auto distance) {
+  std::vector<glm::dvec4> kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const glm::dvec4 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+    const double before = distance(from), after = distance(to);
+    if (before >= 0.0) kept.push_back(from);
+    if ((before >= 0.0) != (after >= 0.0)) kept.push_back(glm::mix(from, to, before / (before - after)));
+  }
+  polygon = std::move(kept);
+}
+
+/// Distance along the view axis from which on the box can be seen; infinite where it cannot. A floor that
+/// reaches below the camera begins where the view's lower edge meets it.
+double nearestInView(const scene::Bounds& box, const View& view) {
+  const glm::dvec3 reach(view.nearReach);
+  if (glm::all(glm::greaterThanEqual(view.eyeWorld + reach, box.low)) &&
+      glm::all(glm::lessThanEqual(view.eyeWorld - reach, box.high)))
+    return 0.0;
+  constexpr int kFaces[6][4] = {{0, 2, 6, 4}, {1, 3, 7, 5}, {0, 1, 5, 4},
+                                {2, 3, 7, 6}, {0, 1, 3, 2}, {4, 5, 7, 6}};
+  constexpr double kWider = 1.01;  // what rasterisers may touch beyond the view's borders
+  double nearest = std::numeric_limits<double>::infinity();
+  for (const auto& face : kFaces) {
+    std::vector<glm::dvec4> polygon;
+    for (const int corner : face) {
+      polygon.push_back(view.clipFromWorld * glm::dvec4(corner & 1 ? box.high.x : box.low.x,
+                                                        corner & 2 ? box.high.y : box.low.y,
+                                                        corner & 4 ? box.high.z : box.low.z, 1.0));
+    }
+    cutPolygon(polygon, [](const glm::dvec4& p) { return p.z + p.w; });
+    for (const int axis : {0, 1}) {
+      cutPolygon(polygon, [&](const glm::dvec4& p) { return kWider * p.w - p[axis]; });
+      cutPolygon(polygon, [&](const glm::dvec4& p) { return kWider * p.w + p[axis]; });
+    }
+    for (const glm::dvec4& p : polygon) nearest = std::min(nearest, p.w);
+  }
+  return nearest;
 }
 
 framegraph::ResourceId findResource(const framegraph::Graph& graph, const std::string& name) {
@@ -113,13 +155,12 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlph
   const glm::dvec4 w = row(frame.view.clipFromWorld, 3);
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const DrawItem& item : frame.receivers) {
-    for (const glm::dvec3& corner : item.boundsWorld.corners()) {
-      const double along = glm::dot(w, glm::dvec4(corner, 1.0));
-      low = std::min(low, along), high = std::max(high, along);
-    }
+    low = std::min(low, nearestInView(item.boundsWorld, frame.view));
+    for (const glm::dvec3& corner : item.boundsWorld.corners())
+      high = std::max(high, glm::dot(w, glm::dvec4(corner, 1.0)));
   }
   depth.farthest = high > 0.0 ? high * (1.0 + 1e-6) : 1.0;
-  depth.nearest = std::clamp(low * (1.0 - 1e-6), 0.0, depth.farthest);
+  depth.nearest = std::isfinite(low) ? std::clamp(0.999 * low, 0.0, depth.farthest) : 0.0;
   depth.packed = findResource(frame.graph, name);
   depth.depthTest = findResource(frame.graph, name + " test");
   if (depth.packed.valid()) return depth;

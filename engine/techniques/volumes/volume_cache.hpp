@@ -46,8 +46,7 @@ class VolumeCache {
   /// `maxLayers`: of each chunk; the same in every call. The pointer stays valid until the light's
   /// endLight(). Errors: outOfMemory.
   Result<const CasterVolume*> get(gl::Context& context, int lightIndex, const glm::dvec3& lightWorld,
-                                  const scene::PlacedCaster& caster, VolumeSurface surface,
-                                  int maxLayers);
+                                  const scene::PlacedCaster& caster, VolumeSurface surface, int maxLayers);
   /// Drops the light's volumes that were not asked for since the last call.
   void endLight(int lightIndex);
   void clear() { volumes_.clear(); }

@@ -36,8 +36,8 @@ std::vector<Triangle> trianglesOf(const DrawItem& item) {
       const double reach = std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z), shift});
       triangle.rounding = std::max(triangle.rounding, kRoundings * reach);
     }
-    const glm::dvec3 cross = glm::cross(triangle.corners[1] - triangle.corners[0],
-                                        triangle.corners[2] - triangle.corners[0]);
+    const glm::dvec3 cross =
+        glm::cross(triangle.corners[1] - triangle.corners[0], triangle.corners[2] - triangle.corners[0]);
     const double length = glm::length(cross);
     if (!(length > 0.0)) continue;
     triangle.normal = cross / length;
@@ -111,7 +111,8 @@ bool CoincidentReceivers::among(std::span<const DrawItem> receivers) {
         if (coincide(a, b)) return true;
         continue;
       }
-      const glm::dvec3 low = glm::abs(box.low - b.boundsWorld.low), high = glm::abs(box.high - b.boundsWorld.high);
+      const glm::dvec3 low = glm::abs(box.low - b.boundsWorld.low),
+                       high = glm::abs(box.high - b.boundsWorld.high);
       const glm::dvec3 apart = glm::max(low, high);
       if (std::max({apart.x, apart.y, apart.z}) <= rounding) return true;
     }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Receivers whose surfaces lie in each other, as two floors in one plane: a pixel shows one of them, but both
-/// pass its depth test. CPU only.
+/// Receivers whose surfaces lie in each other, as two floors in one plane: a pixel shows one of them, but
+/// both pass its depth test. CPU only.
 #pragma once
 
 #include <map>

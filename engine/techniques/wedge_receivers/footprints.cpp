@@ -59,9 +59,8 @@ glm::vec4 facetOf(const Polygon& triangle) {
 FootprintVertex projected(const Corner& corner, const WedgePieces& pieces, const WedgePiece& piece,
                           const glm::vec4& facet) {
   const double scale = 1.0 / piece.size();
-  FootprintVertex vertex{.positionObject = glm::vec3(corner.object),
-                         .inverseSize = static_cast<float>(scale),
-                         .facet = facet};
+  FootprintVertex vertex{
+      .positionObject = glm::vec3(corner.object), .inverseSize = static_cast<float>(scale), .facet = facet};
   const glm::dvec3& p = corner.light;
   for (std::uint32_t i = 0; i < kPieceVertices; ++i) {
     const glm::dvec3& e = pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)];

@@ -64,8 +64,8 @@ void setPiece(gl::Context& context, gl::Program& program, const WedgeVolumes& vo
   glm::vec4 coordinates[6];
   const glm::dvec3 anchor(0, 0, 1);
   for (std::uint32_t i = 0; i < kPieceVertices; ++i) {
-    const glm::vec3 vertex(
-        volumes.pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)] - anchor);
+    const glm::vec3 vertex(volumes.pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)] -
+                           anchor);
     for (int axis = 0; axis < 3; ++axis)
       coordinates[2 * axis + static_cast<int>(i / 4)][static_cast<int>(i % 4)] = vertex[axis];
   }
@@ -156,8 +156,8 @@ Result<ReceiverDraws> WedgeReceivers::update(const LightFrame& frame, const Wedg
                                              clipFromLight, view.width, view.height);
         const auto rect = volumeRect ? commonRect(*volumeRect, *itemRect) : std::nullopt;
         if (!rect) return;
-        const bool beyond = receiver.bounds.low.z - extent.farthest >=
-                            kAllVerticesNear * volumes.pieces.pieces[index].size();
+        const bool beyond =
+            receiver.bounds.low.z - extent.farthest >= kAllVerticesNear * volumes.pieces.pieces[index].size();
         group.push_back({i, beyond ? WedgePart::beyond : WedgePart::beside, &receiver, {}, index, *rect});
         ++draws.wholeDraws;
         draws.wholeVertices += receiver.vertexCount;
@@ -243,6 +243,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
   // Subtracted in double: from a far light the places of receivers differ by little.
   const glm::dmat4 anchorFromWorld = glm::inverse(worldFromAnchor(volumes.plane));
   const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.unitHeightWorld());
+  const double least = kNearOfDistance / glm::length(volumes.plane.toUnitHeight);
   gl::Program* current = nullptr;
   for (const ReceiverDraw& draw : draws) {
     const DrawItem& item = items[draw.item];
@@ -250,7 +251,7 @@ void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePro
     if (&program != current) {
       current = &program;
       encoder.useProgram(program);
-      program.set(gl, "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
+      program.set(gl, "u_wedgeSteps", glm::vec4(steps, least, 0, 0));
       program.set(gl, "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
       program.set(gl, "u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
       program.set(gl, "u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 0.0f));

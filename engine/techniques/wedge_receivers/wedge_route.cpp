@@ -142,9 +142,9 @@ Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view
                               "too many pieces of silhouette reach them");
     }
   }
-  if (Status s = volumes_.upload(frame, ends.heights, ends.key); !s) return s.error();
   auto depth = declareReceiverDepth(frame);
   if (!depth) return depth.error();
+  if (Status s = volumes_.upload(frame, *depth, ends.heights, ends.key); !s) return s.error();
   route.depth_ = *depth;
   return route;
 }

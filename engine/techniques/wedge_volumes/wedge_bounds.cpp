@@ -17,8 +17,8 @@ gl::Rect unitedRect(const gl::Rect& a, const gl::Rect& b) {
 }  // namespace
 
 glm::dmat4 worldFromLight(const scene::LightPlane& plane) {
-  return {glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
-          glm::dvec4(plane.toUnitHeight, 0), glm::dvec4(plane.centerWorld, 1)};
+  return {glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0), glm::dvec4(plane.toUnitHeight, 0),
+          glm::dvec4(plane.centerWorld, 1)};
 }
 
 glm::dmat4 worldFromAnchor(const scene::LightPlane& plane) {

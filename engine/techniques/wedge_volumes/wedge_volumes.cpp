@@ -25,10 +25,11 @@ constexpr double kMinHalfLength = 1e-5;
 /// A receiver so far behind all vertices of a piece, in units of its size, needs no clipping:
 /// HS_WEDGE_ALL_NEAR.
 constexpr double kAllNear = 1e-3, kAllNearWithoutHighp = 4e-3;
+/// And none that is this share of its distance from the eye.
+constexpr double kAllNearOfDistance = 10.0 * kNearOfDistance;
 
-/// Three rectangles a piece: at its nearest vertex, where all vertices are nearer than receivers, at the end.
-/// Between the first two lies the volume whose receivers need clipping, between the last two the rest.
-constexpr int kCorners = 12, kIndices = kVolumeIndices;
+/// Two boxes a piece: receivers in the first may need clipping, those in the second may not; fragments tell.
+constexpr int kCorners = 16, kIndices = kVolumeIndices;
 constexpr std::size_t kPiecesPerDraw = volumesPerDraw(kCorners);
 
 /// A whole number of steps that a piece's centre is rounded to: wedge_piece.glsl.
@@ -40,8 +41,8 @@ struct Vertex {
   glm::vec3 corner;
   /// Of the piece, in steps of the grid from the centre.
   std::array<float, kPieceVertices> a, b, h;
-  glm::vec3 center;  ///< in units of kCenterSteps
-  float step;        ///< of the grid
+  glm::vec3 center;    ///< in units of kCenterSteps
+  float stepExponent;  ///< of the grid's step, a power of two
 };
 constexpr int kStride = sizeof(Vertex);
 
@@ -57,7 +58,9 @@ double farthestReceiver(const LightFrame& frame, const scene::LightPlane& plane)
   return farthest;
 }
 
-std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, std::span<const double> ends) {
+/// `sure`: height above all vertices that needs no clipping at any distance from the eye.
+std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, double sure,
+                                 std::span<const double> ends) {
   const WedgePieces& pieces = volumes.pieces;
   const glm::dvec3 anchor(0, 0, 1);
   const VolumeReach reach{.end = volumes.end(), .sideways = volumes.reach};
@@ -67,7 +70,7 @@ std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, st
     const WedgePiece& piece = pieces.pieces[p];
     Vertex vertex;
     const double step = volumes.stepsPerUnit * piece.step;
-    vertex.step = static_cast<float>(step);
+    vertex.stepExponent = static_cast<float>(std::round(std::log2(step)));
     const auto steps = [&](std::size_t i) {
       // Short pieces repeat their last vertex: edges of no length add nothing.
       const std::size_t index = piece.firstVertex + std::min<std::size_t>(i, piece.vertexCount - 1);
@@ -87,8 +90,9 @@ std::vector<Vertex> vertexStream(const WedgeVolumes& volumes, double allNear, st
       stream.insert(stream.end(), kCorners, vertex);
       continue;
     }
-    const double last = std::min(piece.extent.farthest + allNear * piece.size(), end);
-    for (const double h : {nearest, last, end}) {
+    const double first = std::min(piece.extent.farthest + allNear * piece.size(), end);
+    const double last = std::min(piece.extent.farthest + std::max(allNear * piece.size(), sure), end);
+    for (const double h : {nearest, last, first, end}) {
       for (const glm::dvec3& corner : volumeCorners(piece.extent, h, reach)) {
         vertex.corner = corner - anchor;
         stream.push_back(vertex);
@@ -121,7 +125,7 @@ void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::Dra
                                           VertexAttribute::extra2, VertexAttribute::extra3,
                                           VertexAttribute::extra4, VertexAttribute::normal};
   while (count > 0) {
-    const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 4 : 0;
+    const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 8 : 0;
     const std::size_t offset = (first * kCorners + skipped) * kStride;
     gl::AttributeBinding bindings[8];
     bindings[0] = {VertexAttribute::position,  &volumes.vertices, 3,
@@ -155,8 +159,8 @@ const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   volumes.farthest = farthest;
   volumes.reach = reach;
   // What a caster covers at all counts once, however often it covers it.
-  const scene::LightSilhouettes& silhouettes =
-      volumes.silhouettes.update(placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+  const scene::LightSilhouettes& silhouettes = volumes.silhouettes.update(
+      placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
@@ -164,17 +168,22 @@ const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   return &volumes;
 }
 
-Status WedgeVolumeCache::upload(const LightFrame& frame, std::span<const double> ends,
-                                std::uint64_t endsKey) {
+Status WedgeVolumeCache::upload(const LightFrame& frame, const ReceiverDepth& depth,
+                                std::span<const double> ends, std::uint64_t endsKey) {
   WedgeVolumes& volumes = volumes_[frame.lightIndex];
-  const std::uint64_t key = planner::combineKeys(volumes.contentKey, endsKey);
+  // A power of two, so that it seldom changes.
+  const double farthest = std::exp2(std::ceil(std::log2(depth.farthest)));
+  const double sure = kAllNearOfDistance * farthest / glm::length(volumes.plane.toUnitHeight);
+  const std::uint64_t key = planner::combineKeys(planner::combineKeys(volumes.contentKey, endsKey),
+                                                 std::bit_cast<std::uint64_t>(farthest));
   volumes.trimmed = !ends.empty();
   volumes.small = volumes.trimmed && lengthKept(volumes, ends) < 0.5;
   if (volumes.streamKey == key || volumes.pieces.pieces.empty()) return {};
   volumes.streamKey = 0;
   const bool highp = frame.capabilities.has(gl::Capability::highp);
   volumes.stepsPerUnit = highp ? 1.0 : kStepsWithoutHighp;
-  const std::vector<Vertex> stream = vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, ends);
+  const std::vector<Vertex> stream =
+      vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, sure, ends);
   if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
                                std::as_bytes(std::span(stream)));
       !s) {
@@ -187,12 +196,6 @@ Status WedgeVolumeCache::upload(const LightFrame& frame, std::span<const double>
   return {};
 }
 
-Result<const WedgeVolumes*> WedgeVolumeCache::update(const LightFrame& frame) {
-  const WedgeVolumes* volumes = updatePieces(frame);
-  if (Status s = upload(frame, {}, 0); !s) return s.error();
-  return volumes;
-}
-
 void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
                       const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
                       WedgePart part, gl::DrawState state) {
@@ -203,9 +206,11 @@ void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, co
   program.set(encoder.context(), "u_clipFromLight", glm::mat4(depth.clipFromWorld * worldFromAnchor(plane)));
   const glm::dvec3& units = volumes.pieces.units;
   const double sizeUnits = kGridSteps / volumes.stepsPerUnit;
-  program.set(encoder.context(), "u_pieceGrid", glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
+  program.set(encoder.context(), "u_pieceGrid",
+              glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
   program.set(encoder.context(), "u_pieceScale",
-              glm::vec4(units.x / units.y, units.y / sizeUnits, 0.0, 0.0));
+              glm::vec4(units.x / units.y, units.y / sizeUnits,
+                        kNearOfDistance * depth.farthest / glm::length(plane.toUnitHeight), 0.0));
   const auto hull = eyeHull(view, plane);
   const VolumeReach reach{.end = volumes.end(), .sideways = volumes.reach};
   const bool small = part == WedgePart::beside || volumes.small;

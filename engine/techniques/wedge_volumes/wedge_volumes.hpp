@@ -11,6 +11,12 @@
 
 namespace halfshadow::techniques {
 
+/// A vertex counts for a receiver that is so much farther from the light, over the receiver's distance from
+/// the eye: hundreds of times what rounding of stored distances moves it, a fraction of a pixel. Where a
+/// caster ends in a contour close to a receiver among its faces, a chord across it stands in, which rounding
+/// would turn.
+inline constexpr double kNearOfDistance = 256.0 / (1 << 20);
+
 /// The wedges of one light.
 struct WedgeVolumes {
   std::uint64_t contentKey = 0;
@@ -21,8 +27,8 @@ struct WedgeVolumes {
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   scene::LightSilhouetteCache silhouettes;
   WedgePieces pieces;
-  bool lightEnclosed = false;  ///< a closed caster stands around the light's centre: nothing outside is lit
-  double stepsPerUnit = 1.0;  ///< of the vertex stream: 1 where fragments have highp
+  bool lightEnclosed = false;   ///< a closed caster stands around the light's centre: nothing outside is lit
+  double stepsPerUnit = 1.0;    ///< of the vertex stream: 1 where fragments have highp
   std::uint64_t streamKey = 0;  ///< of what the buffers hold
   bool trimmed = false;         ///< volumes end before the farthest receiver
   bool small = false;           ///< by more than half of their length, on average
@@ -43,14 +49,13 @@ enum class WedgePart {
 /// Keeps the wedges of each light between frames.
 class WedgeVolumeCache {
  public:
-  /// The wedges for this frame, uploaded again only when light, casters or the receivers' reach changed. The
-  /// pointer stays valid until contextLost(). Errors: outOfMemory.
-  Result<const WedgeVolumes*> update(const LightFrame& frame);
-  /// The same in two steps. First what needs no GPU:
+  /// The wedges for this frame, made again only when light, casters or the receivers' reach changed. The
+  /// pointer stays valid until contextLost().
   const WedgeVolumes* updatePieces(const LightFrame& frame);
-  /// then the buffers. `ends`, one a piece: the largest height of a receiver that its volume must hold, 0 =
-  /// none; empty: all receivers. `endsKey` changes with them. Errors: outOfMemory.
-  Status upload(const LightFrame& frame, std::span<const double> ends, std::uint64_t endsKey);
+  /// The same for the buffers. `ends`, one a piece: the largest height of a receiver that its volume must
+  /// hold, 0 = none; empty: all receivers. `endsKey` changes with them. Errors: outOfMemory.
+  Status upload(const LightFrame& frame, const ReceiverDepth& depth, std::span<const double> ends,
+                std::uint64_t endsKey);
   void contextLost() { volumes_.clear(); }
 
  private:
