@@ -20,9 +20,9 @@ void PrintTo(const Cost& cost, std::ostream* stream) {
   *stream << cost.configuration.text();
 }
 
-// Depth map 1; block bounds one pass per factor of four or two (4 for a kernel, 16 or 32 for this light's
-// penumbra) and one that dilates; occupancy and pyramid 2; the mip chain's edge mask 2; moments 1 and their
-// blur 2.
+// Depth map 1; block bounds for a kernel one pass per factor of four or two and one that dilates; penumbra
+// bounds two sources of blocks and their levels along two axes; occupancy, its second source and its levels
+// 3; the mip chain's edge mask 2; moments 1 and their blur 2.
 const std::vector<Cost> kCosts = {
     {{"none"}, 0},
     {{"hard"}, 1},
@@ -32,8 +32,8 @@ const std::vector<Cost> kCosts = {
     {{"pcf-quantized", {{"pcf-quantized.preset", "paper"}}}, 1 + 2},
     {{"vsm"}, 1 + 3},
     {{"pcss"}, 1 + 4},
-    {{"pcss-mip"}, 1 + 4 + 2},
-    {{"pcf-quantized"}, 1 + 4 + 2},
+    {{"pcss-mip"}, 1 + 4 + 3},
+    {{"pcf-quantized"}, 1 + 4 + 3},
     {{"wedges-cells"}, 0},
     {{"wedges-blended"}, 0},
     // Receivers' depth and sums; receivers that carry the silhouettes test a depth buffer of their own.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// A light that turns by a quarter of a degree a frame: visibility on the ground changes as its truth does. Widths
-// that jump because a blocker's depth was rounded, or because a level of a pyramid took over, show as flicker.
+// A light that turns by a quarter of a degree a frame: visibility on the ground changes as its truth does.
+// Widths that jump because a blocker's depth was rounded, or because a level of a pyramid took over, show as
+// flicker.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -90,20 +91,20 @@ TEST_P(TurningLight, JumpsNoMoreThanItsTruth) {
 }
 
 // One of 7 x 7 taps is .02; two that cross an edge together and the truth's noise leave .06.
-INSTANTIATE_TEST_SUITE_P(Techniques, TurningLight,
-                         testing::Values(Turning{"pcss-mip", "figure@light=1", 0.06},
-                                         Turning{"pcss-mip", "spheres27@light=1", 0.06},
-                                         Turning{"pcss-mip", "bars@light=1", 0.06},
-                                         Turning{"pcf-quantized", "figure@light=1", 0.06},
-                                         Turning{"pcf-quantized", "spheres27@light=1", 0.06},
-                                         Turning{"pcf-quantized", "bars@light=1", 0.06}, Turning{"pcss", "figure@light=1", 0.06}, Turning{"pcss", "spheres27@light=1", 0.06}),
-                         [](const auto& tested) {
-                           std::string name = std::string(tested.param.technique) + "_" + tested.param.scene;
-                           std::ranges::replace_if(
-                               name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; },
-                               '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(
+    Techniques, TurningLight,
+    testing::Values(Turning{"pcss-mip", "figure@light=1", 0.06},
+                    Turning{"pcss-mip", "spheres27@light=1", 0.06}, Turning{"pcss-mip", "bars@light=1", 0.06},
+                    Turning{"pcf-quantized", "figure@light=1", 0.06},
+                    Turning{"pcf-quantized", "spheres27@light=1", 0.06},
+                    Turning{"pcf-quantized", "bars@light=1", 0.06}, Turning{"pcss", "figure@light=1", 0.06},
+                    Turning{"pcss", "spheres27@light=1", 0.06}),
+    [](const auto& tested) {
+      std::string name = std::string(tested.param.technique) + "_" + tested.param.scene;
+      std::ranges::replace_if(
+          name, [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
+      return name;
+    });
 
 }  // namespace
 }  // namespace halfshadow::test

@@ -104,7 +104,7 @@ class PcfQuantized final : public Technique {
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(shading);
+    addSelfReceiverSearch(frame, shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
@@ -113,7 +113,8 @@ class PcfQuantized final : public Technique {
     const MapSpace& space = depth->space;
     const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
     const int bands = frame.settings.integer("pcf-quantized.bands");
-    const double octavesApart = widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 3.5 / (bands - 1);
+    const double octavesApart =
+        widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 3.5 / (bands - 1);
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, 0.0);
