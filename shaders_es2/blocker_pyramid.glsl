@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Mean gap to the casters over a region of the map, from an atlas of levels of cells that hold an occupied share and
-// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl.
+// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl and
+// penumbra_bounds.glsl.
 //
 // Cells are weighed here, not by the sampler: filters of 8 bits leave no depth to tell widths by, and a cell
 // beyond the receiver blocks nothing.
@@ -34,19 +35,29 @@ HS_HIGHP vec2 hs_cellsAround(HS_HIGHP float level) {
   return sum * (1.0 / 255.0);
 }
 
-HS_HIGHP float hs_levelOf(HS_HIGHP float widthTexels) {
-  HS_HIGHP float cellsWide = widthTexels * u_pyramidLayout.x * u_pyramidLayout.z;
-  return clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
-}
-
-// The same over a region of widthTexels of the depth map, more or less: the nearest level's.
-HS_HIGHP vec2 hs_blockersNear(HS_HIGHP float widthTexels) {
-  return hs_cellsAround(floor(hs_levelOf(widthTexels) + 0.5));
-}
-
-// The same between two levels: changes evenly with the width.
+// The same over about widthTexels of the depth map, between two levels: changes evenly with the width.
 HS_HIGHP vec2 hs_blockersAround(HS_HIGHP float widthTexels) {
-  HS_HIGHP float level = hs_levelOf(widthTexels);
+  HS_HIGHP float cellsWide = widthTexels * u_pyramidLayout.x * u_pyramidLayout.z;
+  HS_HIGHP float level = clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
   HS_HIGHP float lower = floor(level);
   return mix(hs_cellsAround(lower), hs_cellsAround(min(lower + 1.0, u_pyramidLayout.y)), level - lower);
+}
+
+// Mean gap of what can block the fragment, depth units, or -1: nothing does. Where it asks for much less than the
+// widest region, a nearer caster at the rim had widened it without being in the way: the region is then what the mean
+// asks for, and between the two from one to the other.
+HS_HIGHP float hs_meanGap() {
+  HS_HIGHP float texelsPerDepth = max(u_penumbra.x, u_penumbra.y);
+  HS_HIGHP vec2 around = hs_blockersAround(texelsPerDepth * hs_widestGap);
+  if (around.x <= 0.0) return -1.0;
+  HS_HIGHP float gap = around.y / around.x;
+  HS_HIGHP float part = gap / hs_widestGap;
+  // Of the region that the filter will cover, half a step of an 8-bit image.
+  if (around.x <= 0.002 * part * part) return -1.0;
+  HS_HIGHP float again = clamp(2.5 - 5.0 * part, 0.0, 1.0);
+  if (again > 0.0) {
+    HS_HIGHP vec2 nearer = hs_blockersAround(texelsPerDepth * gap * 1.25);
+    if (nearer.x > 0.0) gap = mix(gap, nearer.y / nearer.x, again);
+  }
+  return gap;
 }

@@ -27,16 +27,13 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   if (found.x <= 0.0) return vec2(-1.0);
   HS_HIGHP float width = widest * found.y;
 #else
-  HS_HIGHP vec2 around = hs_blockersNear(widest * hs_widestGap);
-  if (around.x <= 0.0) return vec2(-1.0);
-  HS_HIGHP float width = widest * around.y / around.x;
-  around = hs_blockersNear(max(width, 1.0) * 1.25);
-  if (around.x > 0.0) width = widest * around.y / around.x;
+  HS_HIGHP float width = widest * hs_meanGap();
+  if (width < 0.0) return vec2(-1.0);
 #endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
   width = exp2(u_bands.x + band / u_bands.y);
-  // Two texels a tap: more taps than that read the same texels again.
-  side = width < 2.0 * u_kernels.x ? u_kernels.x : (width < 2.0 * u_kernels.y ? u_kernels.y : u_kernels.z);
+  // A texel a tap: more taps than that read the same texels again.
+  side = width < u_kernels.x ? u_kernels.x : (width < u_kernels.y ? u_kernels.y : u_kernels.z);
   return u_penumbra.xy * (width / widest);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Percentage closer soft shadows whose blocker search is two fetches of an occupancy pyramid: one over the
-// widest region that could hold a blocker, one over the region that the first answer leaves.
+// Percentage closer soft shadows whose blocker search is one look into an occupancy pyramid, over the widest region
+// that could hold a blocker, and a second one where the first answer leaves much less of it.
 #include "tap_count.glsl"
 #include "depth_storage.glsl"
 #include "receiver_inputs.glsl"
@@ -21,13 +21,7 @@ HS_HIGHP vec2 hs_penumbraWidth() {
   HS_HIGHP vec2 found = hs_searchBlockers();
   return found.x > 0.0 ? u_penumbra.xy * found.y : vec2(-1.0);
 #else
-  HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
-  HS_HIGHP vec2 coarse = hs_blockersNear(widest * hs_widestGap);
-  if (coarse.x <= 0.0) return vec2(-1.0);
-  HS_HIGHP float gap = coarse.y / coarse.x;
-  HS_HIGHP vec2 fine = hs_blockersAround(max(widest * gap, 1.0) * 1.25);
-  if (fine.x > 0.0) gap = fine.y / fine.x;
-  return u_penumbra.xy * gap;
+  return u_penumbra.xy * hs_meanGap();
 #endif
 }
 

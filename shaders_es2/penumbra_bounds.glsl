@@ -16,10 +16,12 @@ uniform HS_HIGHP vec4 u_penumbra;
 // Depth between the fragment and the nearest caster that can block it, depth units; set by hs_maskClass().
 HS_HIGHP float hs_widestGap = 0.0;
 
-// Bytes of the bounds around the fragment, of all texels within `reach` and some more: each level holds those of a
-// block and of the four to each side.
-HS_HIGHP vec4 hs_boundsWithin(HS_HIGHP float reach) {
-  HS_HIGHP float level = clamp(ceil(log2(max(reach * u_penumbra.w, 1.0))), 0.0, u_bounds.z);
+// The level whose answer holds all texels within `reach`, and some more: each block's and those of four to each side.
+HS_HIGHP float hs_boundsLevel(HS_HIGHP float reach) {
+  return clamp(ceil(log2(max(reach * u_penumbra.w, 1.0))), 0.0, u_bounds.z);
+}
+
+HS_HIGHP vec4 hs_boundsAround(HS_HIGHP float level) {
   HS_HIGHP float side = floor(u_bounds.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 block = clamp(floor(hs_texel * (side * u_bounds.y)), 0.0, side - 1.0);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_bounds.x, u_bounds.x - 2.0 * side);
@@ -36,9 +38,13 @@ float hs_maskClass() {
   hs_widestGap = hs_receiverValue - u_penumbra.z;
   HS_HIGHP float gapHigh = 0.0;
   HS_HIGHP float reach = 0.0;
-  for (int i = 0; i < 3; ++i) {
+  HS_HIGHP float asked = -1.0;
+  for (int i = 0; i < 2; ++i) {
     reach = halfWidth * hs_widestGap + u_bounds.w;
-    HS_HIGHP vec4 bytes = hs_boundsWithin(reach);
+    HS_HIGHP float level = hs_boundsLevel(reach);
+    if (level == asked) break;
+    asked = level;
+    HS_HIGHP vec4 bytes = hs_boundsAround(level);
 #ifdef HS_DEPTH_PACKED16
     vec4 difference = bytes - vec4(hs_receiver, hs_receiver);
     HS_HIGHP float gapLow = difference.x + difference.y * (1.0 / 256.0);
@@ -48,8 +54,8 @@ float hs_maskClass() {
     // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
     gapHigh = (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver;
 #endif
-    hs_widestGap = min(hs_widestGap, -gapLow);
     if (gapLow >= -bias) return 1.0;
+    hs_widestGap = min(hs_widestGap, -gapLow);
   }
   return gapHigh < -bias - slope * reach ? 0.0 : -1.0;
 }

@@ -119,8 +119,8 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
     for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
-    cache.fit = planner::fitLight(light, cache.casterPointsWorld,
-                                  {.mapSize = mapSize, .pointsAreTriangles = true});
+    cache.fit =
+        planner::fitLight(light, cache.casterPointsWorld, {.mapSize = mapSize, .pointsAreTriangles = true});
     cache.key = plan.contentKey;
     cache.mapSize = mapSize;
   }

@@ -43,9 +43,9 @@ struct LightFit {
 
 struct LightFitOptions {
   int mapSize = 1024;
-  int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
-  double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
-  double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
+  int borderTexels = 2;             ///< kept free of casters, so that clamped taps outside read "lit"
+  double maxTangent = 8.0;          ///< casters farther off-axis are cut: 83 degrees
+  double minNearShare = 1e-3;       ///< near is at least this share of the casters' largest distance
   bool pointsAreTriangles = false;  ///< three a triangle: needed to judge casterNearLight
   double nearShare = 1.0;
 };

@@ -20,10 +20,11 @@ void PrintTo(const Cost& cost, std::ostream* stream) {
   *stream << cost.configuration.text();
 }
 
-// Depth map 1; block bounds one pass per factor of four or two (4 for a kernel, 16 or 32 for this light's
-// penumbra) and one that dilates; occupancy and pyramid 2; the mip chain's edge mask 2; moments 1 and their
-// blur 2. Four slices in pairs, fine and kept, and eight levels and an N-buffer for each of the two textures.
-// Coverage, seeds, six floods from 32 texels to 1, six boxes and their atlas, and the map of widths.
+// Depth map 1; block bounds for a kernel one pass per factor of four or two and one that dilates; penumbra
+// bounds two sources of blocks and their levels along two axes; occupancy, its second source and its levels
+// 3; the mip chain's edge mask 2; moments 1 and their blur 2. Four slices in pairs, fine and kept, and eight
+// levels and an N-buffer for each of the two textures. Coverage, seeds, six floods from 32 texels to 1, six
+// boxes and their atlas, and the map of widths.
 const std::vector<Cost> kCosts = {
     {{"none"}, 0},
     {{"hard"}, 1},
@@ -33,8 +34,8 @@ const std::vector<Cost> kCosts = {
     {{"pcf-quantized", {{"pcf-quantized.preset", "paper"}}}, 1 + 2},
     {{"vsm"}, 1 + 3},
     {{"pcss"}, 1 + 4},
-    {{"pcss-mip"}, 1 + 4 + 2},
-    {{"pcf-quantized"}, 1 + 4 + 2},
+    {{"pcss-mip"}, 1 + 4 + 3},
+    {{"pcf-quantized"}, 1 + 4 + 3},
     {{"occlusion-textures"}, 2 + 2 + 2 * (8 + 1)},
     {{"shadow-width"}, 1 + 2 + 6 + 7 + 1},
     {{"shadow-volume"}, 0, 1},

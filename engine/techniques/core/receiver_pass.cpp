@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/core/receiver_pass.hpp"
 
+#include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
 
 namespace halfshadow::techniques {
@@ -38,7 +39,9 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
   return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
           .textured = shaded && item.baseColorTexture != nullptr,
           .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
-                     (shading.selfReceivers == ReceiverShading::SelfReceivers::casting && item.casts)};
+                     (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
+                      (item.casts ||
+                       std::ranges::find(shading.alsoCasting, item.mesh) != shading.alsoCasting.end()))};
 }
 
 void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,

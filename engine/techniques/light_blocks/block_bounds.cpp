@@ -17,7 +17,8 @@ void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*filter.program);
     const float size = static_cast<float>(filter.sourceSize);
-    filter.program->set(encoder.context(), "u_sourceSize", glm::vec4(size, 1.0f / size, filter.targetSize, 0));
+    filter.program->set(encoder.context(), "u_sourceSize",
+                        glm::vec4(size, 1.0f / size, filter.targetSize, 0));
     if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
     const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler),
                                      &context.texture(filter.source)};

@@ -43,7 +43,8 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
   const glm::vec4 casterRange(space.nearestCasterDepth * unit, 1.0 / range, empty, 0);
   const int side = atlas.finestSide;
   std::vector<LevelImage> images;
-  images.push_back({persistent(prefix + " " + std::to_string(side), side, side), side, side, {0, 0, side, side}});
+  images.push_back(
+      {persistent(prefix + " " + std::to_string(side), side, side), side, side, {0, 0, side, side}});
   addFilterPass(frame.graph, {.name = prefix + " " + std::to_string(side),
                               .program = *occupancy,
                               .source = depth.map,
@@ -59,8 +60,8 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
     auto program = reduction(kReduction);
     if (!program) return program.error();
     const int small = side / kReduction;
-    images.push_back({persistent(prefix + " " + std::to_string(small), small, small), small, small,
-                      {0, 0, small, small}});
+    images.push_back(
+        {persistent(prefix + " " + std::to_string(small), small, small), small, small, {0, 0, small, small}});
     addLevelPass(frame.graph, prefix + " " + std::to_string(small), images.back().image,
                  {{*program, images.front(), images.back().rect}},
                  planner::combineKeys(depth.contentKey, 0x0cc1u));
@@ -91,11 +92,6 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
     program.set(context, "u_pyramidLayout", layout);
     program.set(context, "u_pyramidRange", casters);
   };
-}
-
-void addSelfReceiverSearch(ReceiverShading& shading) {
-  shading.defines.push_back("HS_SEARCH 5");
-  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
 }
 
 }  // namespace halfshadow::techniques

@@ -24,8 +24,8 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds);
 /// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
 double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space);
 
-/// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach that
-/// the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
+/// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach
+/// that the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
 struct PenumbraBounds {
   framegraph::ResourceId atlas;
   int blockTexels = 8;  ///< side of a block of the finest level
@@ -53,8 +53,13 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
 void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const BlockerPyramid& pyramid);
 
 /// For techniques that take the mean blocker from the pyramid: receivers that cast search by taps instead,
-/// since a mean over a region takes their own surface for a blocker.
-void addSelfReceiverSearch(ReceiverShading& shading);
+/// since a mean over a region takes their own surface for a blocker; so do those with casters beyond them,
+/// which block nothing and yet share cells with what does.
+void addSelfReceiverSearch(const LightFrame& frame, ReceiverShading& shading);
+
+/// False only when no caster reaches beyond the receiver as seen from the light: all lie on the light's side
+/// of its plane. Receivers that are not flat, or too dense to look at in each frame, may have casters beyond.
+bool mayHaveCastersBeyond(const LightFrame& frame, const DrawItem& receiver);
 
 /// A pass that draws one full-screen triangle with `program`, reading one resource as `sampler`.
 struct FilterPass {

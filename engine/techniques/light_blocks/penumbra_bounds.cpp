@@ -45,16 +45,15 @@ Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const Ligh
     auto program = frame.programs.get({"fullscreen.vert", "block_bounds.frag", defines});
     if (!program) return program.error();
     const auto target = persistent(std::to_string(size), size, size);
-    addFilterPass(
-        frame.graph,
-        {.name = prefix + std::to_string(size),
-         .program = *program,
-         .source = source,
-         .target = target,
-         .sourceSize = sourceSize,
-         .targetSize = size,
-         .contentKey = planner::combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
-         .sampler = "u_source"});
+    addFilterPass(frame.graph,
+                  {.name = prefix + std::to_string(size),
+                   .program = *program,
+                   .source = source,
+                   .target = target,
+                   .sourceSize = sourceSize,
+                   .targetSize = size,
+                   .contentKey = planner::combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
+                   .sampler = "u_source"});
     images.push_back({target, size, size, {0, 0, size, size}});
     source = target;
     sourceSize = size;
@@ -65,16 +64,18 @@ Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const Ligh
   const auto rows = persistent("rows", atlas.width(), atlas.height());
   bounds.atlas = persistent("levels", atlas.width(), atlas.height());
   std::vector<LevelDraw> rowDraws, levelDraws;
-  auto both = frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(0, kReachBlocks, 1)});
+  auto both =
+      frame.programs.get({"fullscreen.vert", "block_dilate.frag", dilationDefines(0, kReachBlocks, 1)});
   if (!both) return both.error();
   for (int level = 0; level <= atlas.lastLevel; ++level) {
     const int side = atlas.side(level);
     const LevelImage& image = images.back().imageWidth >= side ? images.back() : images.front();
-    auto program = frame.programs.get({"fullscreen.vert", "block_dilate.frag",
-                                       dilationDefines(kReachBlocks, 0, image.imageWidth / side)});
+    auto program = frame.programs.get(
+        {"fullscreen.vert", "block_dilate.frag", dilationDefines(kReachBlocks, 0, image.imageWidth / side)});
     if (!program) return program.error();
     rowDraws.push_back({*program, image, atlas.rect(level)});
-    levelDraws.push_back({*both, {rows, atlas.width(), atlas.height(), atlas.rect(level)}, atlas.rect(level)});
+    levelDraws.push_back(
+        {*both, {rows, atlas.width(), atlas.height(), atlas.rect(level)}, atlas.rect(level)});
   }
   addLevelPass(frame.graph, prefix + "rows", rows, std::move(rowDraws),
                planner::combineKeys(depth.contentKey, 0xb0bd0u));
@@ -94,8 +95,7 @@ Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, Recei
   const double texelsPerBlock = bounds->blockTexels;
   const glm::vec4 uniform(bounds->blocks, 1.0 / (texelsPerBlock * bounds->blocks), bounds->lastLevel, slack);
   const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
-                           space.nearestCasterDepth * space.depthUnit,
-                           1.0 / (texelsPerBlock * kReachBlocks));
+                           space.nearestCasterDepth * space.depthUnit, 1.0 / (texelsPerBlock * kReachBlocks));
   shading.setUniforms = [uniform, penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
                                                                                     gl::Context& context) {
     inner(program, context);

@@ -51,9 +51,9 @@ class PcfQuantized final : public Technique {
              "taps per side of the three kernels"},
             {"pcf-quantized.bands",
              SettingType::integer,
-             "8",
+             "64",
              3,
-             16,
+             64,
              {},
              "bands of the penumbra's width (tuned)"},
             {"pcf-quantized.filter",
@@ -104,16 +104,17 @@ class PcfQuantized final : public Technique {
     if (!pyramid) return pyramid.error();
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(shading);
+    addSelfReceiverSearch(frame, shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
-    // Bands half an octave apart, from the widest penumbra that this frame can have downwards. A caster close
-    // to the light makes that width huge and rare: then the same bands are spread down to two texels.
+    // Bands over 3.5 octaves, from the widest penumbra that this frame can have downwards. A caster close to
+    // the light makes that width huge and rare: then the same bands are spread down to two texels.
     const MapSpace& space = depth->space;
     const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
     const int bands = frame.settings.integer("pcf-quantized.bands");
-    const double octavesApart = widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 0.5;
+    const double octavesApart =
+        widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 3.5 / (bands - 1);
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, 0.0);

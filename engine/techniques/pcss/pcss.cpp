@@ -23,9 +23,7 @@ class Pcss final : public Technique {
     return {{"pcss.search", SettingType::integer, "5", 3, 9, {}, "taps per side of the blocker search"},
             {"pcss.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
-    return standInForOneView(frame);
-  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForOneView(frame); }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();

@@ -24,9 +24,7 @@ class PcssMip final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {{"pcss-mip.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
-    return standInForOneView(frame);
-  }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForOneView(frame); }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
@@ -35,7 +33,7 @@ class PcssMip final : public Technique {
     ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(shading);
+    addSelfReceiverSearch(frame, shading);
     addBlockerPyramid(shading, *depth, *pyramid);
     return shading;
   }
