@@ -3,6 +3,7 @@
 #include "planner/frame_planner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "planner/light_space.hpp"
@@ -72,13 +73,22 @@ std::uint64_t castersRevision(const FrameInput& input) {
 
 std::uint64_t sceneRevision(const FrameInput& input) {
   std::uint64_t revision = kKeySeed;
-  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
-    const PlannedObject& object = input.objects[i];
-    const bool within = object.support != nullptr && object.support->convex && maySeeInside(input, i);
-    const std::uint64_t roles = (within ? 4u : 0u) + (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+  for (const PlannedObject& object : input.objects) {
+    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
     revision = combineKeys(combineKeys(combineKeys(revision, object.id), object.revision), roles);
   }
   return revision;
+}
+
+std::uint64_t cameraKeyOf(const FrameInput& input) {
+  if (input.camera == nullptr) return 0;
+  std::uint64_t key = kKeySeed;
+  const scene::Camera& camera = *input.camera;
+  for (const double value : {camera.eyeWorld.x, camera.eyeWorld.y, camera.eyeWorld.z,
+                             scene::nearReach(camera, input.aspectWidthOverHeight)}) {
+    key = combineKeys(key, std::bit_cast<std::uint64_t>(value));
+  }
+  return key;
 }
 
 std::string casterName(const FrameInput& input, std::uint32_t caster, std::size_t light) {
@@ -141,6 +151,7 @@ void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, cons
       history.relevant.push_back(i);
     }
   }
+  history.dependsOnCamera = separation.dependsOnCamera();
 }
 
 LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
@@ -161,7 +172,15 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
   const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
   const std::uint64_t sceneNow = combineKeys(sceneRevision(input), lightRevision);
-  if (first || sceneNow != history.sceneRevision) findRelevant(input, light, receivers, history);
+  const std::uint64_t cameraNow = cameraKeyOf(input);
+  bool relevantChanged = false;
+  if (first || sceneNow != history.sceneRevision ||
+      (history.dependsOnCamera && cameraNow != history.cameraKey)) {
+    const std::vector<std::uint32_t> before = history.relevant;
+    findRelevant(input, light, receivers, history);
+    history.cameraKey = cameraNow;
+    relevantChanged = before != history.relevant;
+  }
   skips.insert(skips.end(), history.irrelevant.begin(), history.irrelevant.end());
 
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
@@ -181,7 +200,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   if (dynamic) {
     plan.casters = needed;
     history.reduced = !outOfView.empty();
-  } else if (!changed && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
+  } else if (!changed && !relevantChanged && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
     // The cached view holds all that is needed, perhaps more: it stays.
     for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
       if (input.objects[i].casts && drawnBefore(i)) plan.casters.push_back(i);

@@ -18,7 +18,26 @@ scene::SupportingPlane placed(const scene::SupportingPlane& plane, const glm::dm
                               const glm::dmat3& normalFromObject) {
   const glm::dvec3 normal = glm::normalize(normalFromObject * plane.normal);
   const glm::dvec3 on(fromObject * glm::dvec4(plane.normal * plane.offset, 1.0));
-  return {normal, glm::dot(normal, on)};
+  scene::SupportingPlane result{normal, glm::dot(normal, on), {}};
+  for (const glm::dvec3& corner : plane.outline) {
+    result.outline.emplace_back(fromObject * glm::dvec4(corner, 1.0));
+  }
+  return result;
+}
+
+/// Is a point of the plane inside its outline, by at least `margin`?
+bool isInside(const scene::SupportingPlane& plane, const glm::dvec3& point, double margin) {
+  const std::vector<glm::dvec3>& outline = plane.outline;
+  double turn = 0.0;  // of the outline about the normal: a mirroring transform reverses it
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    turn += glm::dot(plane.normal, glm::cross(outline[i] - outline[0], outline[i + 1] - outline[0]));
+  }
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec3 along = outline[(i + 1) % outline.size()] - outline[i];
+    const double inward = glm::dot(plane.normal, glm::cross(along, point - outline[i]));
+    if ((turn < 0.0 ? -inward : inward) < margin * glm::length(along)) return false;
+  }
+  return true;
 }
 }  // namespace
 
@@ -45,8 +64,8 @@ const Separation::Body& Separation::body(std::uint32_t index) {
   for (int axis = 0; axis < 3; ++axis) {
     glm::dvec3 normal(0.0);
     normal[axis] = 1.0;
-    made.planes.push_back(placed({normal, box.high[axis]}, made.fromObject, normalFromObject));
-    made.planes.push_back(placed({-normal, -box.low[axis]}, made.fromObject, normalFromObject));
+    made.planes.push_back(placed({normal, box.high[axis], {}}, made.fromObject, normalFromObject));
+    made.planes.push_back(placed({-normal, -box.low[axis], {}}, made.fromObject, normalFromObject));
   }
   const auto corners = box.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -111,7 +130,50 @@ bool Separation::shadowsItself(std::uint32_t index) {
     const LightExtent extent = lightAlong(plane.normal);
     if (extent.low < plane.offset - slack && extent.high > plane.offset + slack) return true;
   }
-  return maySeeInside(input_, index) && !enclosesLight(index);
+  if (enclosesLight(index)) return false;
+  dependsOnCamera_ = true;
+  return maySeeInside(input_, index);
+}
+
+/// What of the receiver lies behind the plane is seen only through the plane's outline.
+bool Separation::hidesWhatIsBehind(const scene::SupportingPlane& plane, std::uint32_t receiver,
+                                   double slack) {
+  if (plane.outline.empty() || input_.camera == nullptr) return false;
+  const Body& shape = body(receiver);
+  // What does not come before the plane at all is another matter: hardly ever is it wholly hidden.
+  if (std::ranges::all_of(shape.corners, [&](const glm::dvec3& corner) {
+        return glm::dot(plane.normal, corner) <= plane.offset + slack;
+      })) {
+    return false;
+  }
+  dependsOnCamera_ = true;
+  const glm::dvec3 eye = input_.camera->eyeWorld - light_.centerWorld;
+  const double eyeHeight = glm::dot(plane.normal, eye) - plane.offset;
+  const double reach = scene::nearReach(*input_.camera, input_.aspectWidthOverHeight);
+  if (eyeHeight <= 1.001 * reach + slack) return false;
+  const scene::TriangleMesh& mesh = *input_.objects[receiver].mesh;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<glm::dvec3, 3> corners;
+    std::array<double, 3> heights;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 position(mesh.positions[mesh.indices[3 * t + k]]);
+      corners[k] = glm::dvec3(shape.fromObject * glm::dvec4(position, 1.0));
+      heights[k] = glm::dot(plane.normal, corners[k]) - plane.offset;
+    }
+    if (std::ranges::min(heights) >= -slack) continue;
+    // The part behind is the hull of the corners there and of where edges pass: so is its image on the plane.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (heights[k] < 0.0) {
+        const glm::dvec3 seenAt = eye + (corners[k] - eye) * (eyeHeight / (eyeHeight - heights[k]));
+        if (!isInside(plane, seenAt, slack)) return false;
+      }
+      if ((heights[k] < 0.0) == (heights[next] < 0.0)) continue;
+      const double share = heights[k] / (heights[k] - heights[next]);
+      if (!isInside(plane, corners[k] + (corners[next] - corners[k]) * share, slack)) return false;
+    }
+  }
+  return true;
 }
 
 bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
@@ -121,7 +183,8 @@ bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
   for (const scene::SupportingPlane& plane : body(caster).planes) {
     const double slack = rounding(caster, plane.normal) + rounding(receiver, plane.normal);
     if (lightAlong(plane.normal).low >= plane.offset - slack &&
-        reachesOnlyFrom(receiver, plane.normal, plane.offset - slack)) {
+        (reachesOnlyFrom(receiver, plane.normal, plane.offset - slack) ||
+         hidesWhatIsBehind(plane, receiver, slack))) {
       return true;
     }
   }

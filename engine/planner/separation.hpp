@@ -20,6 +20,9 @@ namespace halfshadow::planner {
 /// - by itself, when it is flat; or when it is a closed convex body, no face's plane cuts the light, and it
 /// is
 ///   seen from outside or holds the light: its faces then see all of the light or do not face it.
+/// - where parts of the receiver reach through such a plane but are seen by no one: the camera is on the
+///   light's side, too, and looks at them through a face of the caster that lies in the plane (what is sunk
+///   into a ground).
 /// Touching is allowed, within the rounding of the coordinates to float. Objects without shape are never
 /// proved anything of.
 class Separation {
@@ -27,6 +30,8 @@ class Separation {
   Separation(const FrameInput& input, const scene::AreaLight& light);
   /// Proved: no ray from a point of the receiver that can be seen to the light meets the caster.
   bool cannotShadow(std::uint32_t caster, std::uint32_t receiver);
+  /// A proof depended on where the camera is, or would with another.
+  bool dependsOnCamera() const { return dependsOnCamera_; }
 
  private:
   /// An object as the proofs need it, in world axes, relative to the light's centre.
@@ -46,12 +51,14 @@ class Separation {
   double rounding(std::uint32_t object, const glm::dvec3& direction);
   bool reachesOnlyFrom(std::uint32_t object, const glm::dvec3& direction, double least);
   bool shadowsItself(std::uint32_t object);
+  bool hidesWhatIsBehind(const scene::SupportingPlane& plane, std::uint32_t receiver, double slack);
   bool enclosesLight(std::uint32_t object);
 
   const FrameInput& input_;
   const scene::AreaLight& light_;
   std::array<glm::dvec3, 4> lightCorners_;
   std::vector<std::optional<Body>> bodies_;
+  bool dependsOnCamera_ = false;
 };
 
 /// The eye, or a part of the near plane, may be inside the object: then it may be seen from within.
