@@ -84,9 +84,10 @@ std::uint64_t cameraKeyOf(const FrameInput& input) {
   if (input.camera == nullptr) return 0;
   std::uint64_t key = kKeySeed;
   const scene::Camera& camera = *input.camera;
-  for (const double value : {camera.eyeWorld.x, camera.eyeWorld.y, camera.eyeWorld.z,
-                             scene::nearReach(camera, input.aspectWidthOverHeight)}) {
-    key = combineKeys(key, std::bit_cast<std::uint64_t>(value));
+  for (const glm::dvec3& vector :
+       {camera.eyeWorld, camera.targetWorld, camera.up,
+        glm::dvec3(camera.verticalFovRadians, camera.nearDistance, input.aspectWidthOverHeight)}) {
+    for (int i = 0; i < 3; ++i) key = combineKeys(key, std::bit_cast<std::uint64_t>(vector[i]));
   }
   return key;
 }

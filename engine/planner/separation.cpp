@@ -149,8 +149,16 @@ bool Separation::hidesWhatIsBehind(const scene::SupportingPlane& plane, std::uin
   dependsOnCamera_ = true;
   const glm::dvec3 eye = input_.camera->eyeWorld - light_.centerWorld;
   const double eyeHeight = glm::dot(plane.normal, eye) - plane.offset;
-  const double reach = scene::nearReach(*input_.camera, input_.aspectWidthOverHeight);
-  if (eyeHeight <= 1.001 * reach + slack) return false;
+  if (eyeHeight <= slack) return false;
+  // The near plane must not open what hides.
+  const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(scene::viewFromWorld(*input_.camera)));
+  const double tangent = std::tan(0.5 * input_.camera->verticalFovRadians);
+  for (int corner = 0; corner < 4; ++corner) {
+    const glm::dvec3 view((corner & 1 ? 1 : -1) * tangent * input_.aspectWidthOverHeight,
+                          (corner & 2 ? 1 : -1) * tangent, -1.0);
+    const glm::dvec3 toCorner = worldFromView * view * (1.001 * input_.camera->nearDistance);
+    if (eyeHeight + glm::dot(plane.normal, toCorner) <= slack) return false;
+  }
   const scene::TriangleMesh& mesh = *input_.objects[receiver].mesh;
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     std::array<glm::dvec3, 3> corners;
