@@ -103,7 +103,9 @@ TEST_F(Placement, AGroundThatCastsIsLikeOneThatDoesNot) {
     const Image without = image(scene, technique);
     scene.objects.back().casts = true;
     const Image with = image(scene, technique);
-    EXPECT_TRUE(renderer().report().hasSkip("caster 4", "nothing-beyond"));
+    EXPECT_TRUE(std::ranges::any_of(renderer().report().skips, [](const Skip& skip) {
+      return skip.why.find("nothing-beyond") != std::string::npos;
+    }));
     EXPECT_LE(largestDifference(with, without), 2.0 / 255.0);
   }
 }
