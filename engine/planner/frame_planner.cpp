@@ -45,11 +45,13 @@ std::optional<SkipReason> apartFrom(const FrameInput& input, const scene::AreaLi
                                     const std::vector<std::uint32_t>& receivers) {
   SkipReason reason = SkipReason::noReceiverBehind;
   for (const std::uint32_t receiver : receivers) {
-    if (!shadowRegionMeets(light, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld)) {
-      continue;
+    // The cheaper proof first: a ground is asked about everything that stands on it.
+    if (separation.cannotShadow(caster, receiver)) {
+      reason = SkipReason::nothingBeyond;
+    } else if (shadowRegionMeets(light, input.objects[caster].boundsWorld,
+                                 input.objects[receiver].boundsWorld)) {
+      return std::nullopt;
     }
-    if (!separation.cannotShadow(caster, receiver)) return std::nullopt;
-    reason = SkipReason::nothingBeyond;
   }
   return reason;
 }
@@ -152,7 +154,23 @@ void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, cons
       history.relevant.push_back(i);
     }
   }
-  history.dependsOnCamera = separation.dependsOnCamera();
+  history.byCamera.clear();
+  for (const auto& [caster, receiver, cannotShadow] : separation.byCamera()) {
+    history.byCamera.push_back({caster, receiver, cannotShadow});
+  }
+  history.cameraKey = cameraKeyOf(input);
+}
+
+/// The camera moved, and what was decided by where it was is decided otherwise now.
+bool FramePlanner::relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history) {
+  if (history.byCamera.empty()) return false;
+  const std::uint64_t cameraNow = cameraKeyOf(input);
+  if (cameraNow == history.cameraKey) return false;
+  history.cameraKey = cameraNow;
+  Separation separation(input, input.lights[light]);
+  return std::ranges::any_of(history.byCamera, [&](const LightHistory::ByCamera& known) {
+    return separation.cannotShadow(known.caster, known.receiver) != known.cannotShadow;
+  });
 }
 
 LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
@@ -173,13 +191,10 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
   const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
   const std::uint64_t sceneNow = combineKeys(sceneRevision(input), lightRevision);
-  const std::uint64_t cameraNow = cameraKeyOf(input);
   bool relevantChanged = false;
-  if (first || sceneNow != history.sceneRevision ||
-      (history.dependsOnCamera && cameraNow != history.cameraKey)) {
+  if (first || sceneNow != history.sceneRevision || relevanceIsStale(input, light, history)) {
     const std::vector<std::uint32_t> before = history.relevant;
     findRelevant(input, light, receivers, history);
-    history.cameraKey = cameraNow;
     relevantChanged = before != history.relevant;
   }
   skips.insert(skips.end(), history.irrelevant.begin(), history.irrelevant.end());

@@ -100,7 +100,11 @@ class FramePlanner {
     bool reduced = false;  ///< the view lacks casters that no visible receiver needed
     // Searched again only when the scene or the light changes; or the camera, where relevance depends on it.
     std::uint64_t sceneRevision = 0;
-    bool dependsOnCamera = false;
+    struct ByCamera {
+      std::uint32_t caster = 0, receiver = 0;  ///< indices
+      bool cannotShadow = false;
+    };
+    std::vector<ByCamera> byCamera;
     std::uint64_t cameraKey = 0;
     std::vector<std::uint32_t> relevant;
     std::vector<Skip> irrelevant;
@@ -110,6 +114,7 @@ class FramePlanner {
   };
   static void findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
                            LightHistory& history);
+  static bool relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history);
   static LightPlan planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
                              LightHistory& history, std::vector<Skip>& skips);
   std::vector<LightHistory> history_;
