@@ -137,7 +137,10 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
     const EngineObject* object = sceneObjects[i];
     if (!object->receives) continue;
     // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
-    if (!isCaster[i]) target.shadowlessReceivers.push_back(drawItem(*object));
+    if (!isCaster[i]) {
+      target.shadowlessReceivers.push_back(drawItem(*object));
+      target.shadowlessReceivers.back().casts = false;
+    }
     farthest =
         std::max(farthest, api::receiverFarDistance(
                                cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
@@ -294,7 +297,15 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                                                      .aspectWidthOverHeight = aspect,
                                                      .lights = lights,
                                                      .lightRevisions = lightRevisions});
-  for (const std::uint32_t i : framePlan.receivers) frame->receivers.push_back(drawItem(*sceneObjects[i]));
+  // What shadows nothing is in no light's view: its pixels need none of the care that casters' own do.
+  std::vector<bool> castsForSome(sceneObjects.size(), false);
+  for (const planner::LightPlan& light : framePlan.lights) {
+    for (const std::uint32_t i : light.casters) castsForSome[i] = true;
+  }
+  for (const std::uint32_t i : framePlan.receivers) {
+    frame->receivers.push_back(drawItem(*sceneObjects[i]));
+    frame->receivers.back().casts = castsForSome[i];
+  }
   frame->lights.resize(lights.size());
   lightCaches.resize(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {

@@ -3,6 +3,7 @@
 #include "planner/frame_planner.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <optional>
 
 #include "planner/light_space.hpp"
@@ -44,11 +45,13 @@ std::optional<SkipReason> apartFrom(const FrameInput& input, const scene::AreaLi
                                     const std::vector<std::uint32_t>& receivers) {
   SkipReason reason = SkipReason::noReceiverBehind;
   for (const std::uint32_t receiver : receivers) {
-    if (!shadowRegionMeets(light, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld)) {
-      continue;
+    // The cheaper proof first: a ground is asked about everything that stands on it.
+    if (separation.cannotShadow(caster, receiver)) {
+      reason = SkipReason::nothingBeyond;
+    } else if (shadowRegionMeets(light, input.objects[caster].boundsWorld,
+                                 input.objects[receiver].boundsWorld)) {
+      return std::nullopt;
     }
-    if (!separation.cannotShadow(caster, receiver)) return std::nullopt;
-    reason = SkipReason::nothingBeyond;
   }
   return reason;
 }
@@ -72,13 +75,23 @@ std::uint64_t castersRevision(const FrameInput& input) {
 
 std::uint64_t sceneRevision(const FrameInput& input) {
   std::uint64_t revision = kKeySeed;
-  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
-    const PlannedObject& object = input.objects[i];
-    const bool within = object.support != nullptr && object.support->convex && maySeeInside(input, i);
-    const std::uint64_t roles = (within ? 4u : 0u) + (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+  for (const PlannedObject& object : input.objects) {
+    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
     revision = combineKeys(combineKeys(combineKeys(revision, object.id), object.revision), roles);
   }
   return revision;
+}
+
+std::uint64_t cameraKeyOf(const FrameInput& input) {
+  if (input.camera == nullptr) return 0;
+  std::uint64_t key = kKeySeed;
+  const scene::Camera& camera = *input.camera;
+  for (const glm::dvec3& vector :
+       {camera.eyeWorld, camera.targetWorld, camera.up,
+        glm::dvec3(camera.verticalFovRadians, camera.nearDistance, input.aspectWidthOverHeight)}) {
+    for (int i = 0; i < 3; ++i) key = combineKeys(key, std::bit_cast<std::uint64_t>(vector[i]));
+  }
+  return key;
 }
 
 std::string casterName(const FrameInput& input, std::uint32_t caster, std::size_t light) {
@@ -141,6 +154,23 @@ void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, cons
       history.relevant.push_back(i);
     }
   }
+  history.byCamera.clear();
+  for (const auto& [caster, receiver, cannotShadow] : separation.byCamera()) {
+    history.byCamera.push_back({caster, receiver, cannotShadow});
+  }
+  history.cameraKey = cameraKeyOf(input);
+}
+
+/// The camera moved, and what was decided by where it was is decided otherwise now.
+bool FramePlanner::relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history) {
+  if (history.byCamera.empty()) return false;
+  const std::uint64_t cameraNow = cameraKeyOf(input);
+  if (cameraNow == history.cameraKey) return false;
+  history.cameraKey = cameraNow;
+  Separation separation(input, input.lights[light]);
+  return std::ranges::any_of(history.byCamera, [&](const LightHistory::ByCamera& known) {
+    return separation.cannotShadow(known.caster, known.receiver) != known.cannotShadow;
+  });
 }
 
 LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
@@ -161,7 +191,12 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
   const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
   const std::uint64_t sceneNow = combineKeys(sceneRevision(input), lightRevision);
-  if (first || sceneNow != history.sceneRevision) findRelevant(input, light, receivers, history);
+  bool relevantChanged = false;
+  if (first || sceneNow != history.sceneRevision || relevanceIsStale(input, light, history)) {
+    const std::vector<std::uint32_t> before = history.relevant;
+    findRelevant(input, light, receivers, history);
+    relevantChanged = before != history.relevant;
+  }
   skips.insert(skips.end(), history.irrelevant.begin(), history.irrelevant.end());
 
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
@@ -181,7 +216,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
   if (dynamic) {
     plan.casters = needed;
     history.reduced = !outOfView.empty();
-  } else if (!changed && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
+  } else if (!changed && !relevantChanged && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
     // The cached view holds all that is needed, perhaps more: it stays.
     for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
       if (input.objects[i].casts && drawnBefore(i)) plan.casters.push_back(i);

@@ -80,7 +80,8 @@ struct FramePlan {
 /// Keeps, per light, which casters the cached light view holds.
 ///
 /// Static casters and light: the view is made from every caster that can shadow any receiver, whatever the
-/// camera sees, so that a camera-only move changes no key, unless the camera enters or leaves a caster. While
+/// camera sees, so that a camera-only move changes no key, unless the camera comes to see the inside of a
+/// closed caster or what is sunk below a ground. While
 /// a caster or the light changes in two frames running (the view is remade anyway), casters whose shadow
 /// region misses all visible receivers are dropped too; when the movement ends and the camera needs a dropped
 /// caster, the view is remade once.
@@ -97,9 +98,14 @@ class FramePlanner {
     std::vector<std::uint32_t> drawnIds;
     std::uint64_t key = 0;
     bool reduced = false;  ///< the view lacks casters that no visible receiver needed
-    // Relevance depends on the camera only where that is inside a caster: searched again only when this, the
-    // scene or the light changes.
+    // Searched again only when the scene or the light changes; or the camera, where relevance depends on it.
     std::uint64_t sceneRevision = 0;
+    struct ByCamera {
+      std::uint32_t caster = 0, receiver = 0;  ///< indices
+      bool cannotShadow = false;
+    };
+    std::vector<ByCamera> byCamera;
+    std::uint64_t cameraKey = 0;
     std::vector<std::uint32_t> relevant;
     std::vector<Skip> irrelevant;
   };
@@ -108,6 +114,7 @@ class FramePlanner {
   };
   static void findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
                            LightHistory& history);
+  static bool relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history);
   static LightPlan planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
                              LightHistory& history, std::vector<Skip>& skips);
   std::vector<LightHistory> history_;

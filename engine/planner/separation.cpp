@@ -14,11 +14,27 @@ constexpr double kFloat = 1.0 / (1 << 23);
 /// Of what is computed in double from coordinates relative to the light.
 constexpr double kDouble = 1e-13;
 
+/// A plane of the object, by its normal and offset alone.
 scene::SupportingPlane placed(const scene::SupportingPlane& plane, const glm::dmat4& fromObject,
                               const glm::dmat3& normalFromObject) {
   const glm::dvec3 normal = glm::normalize(normalFromObject * plane.normal);
   const glm::dvec3 on(fromObject * glm::dvec4(plane.normal * plane.offset, 1.0));
-  return {normal, glm::dot(normal, on)};
+  return {normal, glm::dot(normal, on), {}};
+}
+
+/// Is a point of the plane inside its outline, by at least `margin`?
+bool isInside(const glm::dvec3& normal, const std::vector<glm::dvec3>& outline, const glm::dvec3& point,
+              double margin) {
+  double turn = 0.0;  // of the outline about the normal: a mirroring transform reverses it
+  for (std::size_t i = 1; i + 1 < outline.size(); ++i) {
+    turn += glm::dot(normal, glm::cross(outline[i] - outline[0], outline[i + 1] - outline[0]));
+  }
+  for (std::size_t i = 0; i < outline.size(); ++i) {
+    const glm::dvec3 along = outline[(i + 1) % outline.size()] - outline[i];
+    const double inward = glm::dot(normal, glm::cross(along, point - outline[i]));
+    if ((turn < 0.0 ? -inward : inward) < margin * glm::length(along)) return false;
+  }
+  return true;
 }
 }  // namespace
 
@@ -26,7 +42,17 @@ Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
     : input_(input),
       light_(light),
       lightCorners_(lightCornersRelative(light)),
-      bodies_(input.objects.size()) {}
+      bodies_(input.objects.size()) {
+  if (input.camera == nullptr) return;
+  eye_ = input.camera->eyeWorld - light.centerWorld;
+  const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(scene::viewFromWorld(*input.camera)));
+  const double tangent = std::tan(0.5 * input.camera->verticalFovRadians);
+  for (unsigned corner = 0; corner < 4; ++corner) {
+    const glm::dvec3 view((corner & 1 ? 1 : -1) * tangent * input.aspectWidthOverHeight,
+                          (corner & 2 ? 1 : -1) * tangent, -1.0);
+    nearCorners_[corner] = eye_ + worldFromView * view * (1.001 * input.camera->nearDistance);
+  }
+}
 
 const Separation::Body& Separation::body(std::uint32_t index) {
   std::optional<Body>& known = bodies_[index];
@@ -36,18 +62,7 @@ const Separation::Body& Separation::body(std::uint32_t index) {
   made.fromObject = object.worldFromObject;
   made.fromObject[3] -= glm::dvec4(light_.centerWorld, 0.0);
   made.largestTranslation = glm::abs(glm::dvec3(object.worldFromObject[3]));
-  const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(made.fromObject)));
-  for (const scene::SupportingPlane& plane : object.support->ofFaces) {
-    made.planes.push_back(placed(plane, made.fromObject, normalFromObject));
-  }
-  made.facePlanes = made.planes.size();
   const scene::Bounds& box = object.support->bounds;
-  for (int axis = 0; axis < 3; ++axis) {
-    glm::dvec3 normal(0.0);
-    normal[axis] = 1.0;
-    made.planes.push_back(placed({normal, box.high[axis]}, made.fromObject, normalFromObject));
-    made.planes.push_back(placed({-normal, -box.low[axis]}, made.fromObject, normalFromObject));
-  }
   const auto corners = box.corners();
   for (std::size_t i = 0; i < corners.size(); ++i) {
     made.corners[i] = glm::dvec3(made.fromObject * glm::dvec4(corners[i], 1.0));
@@ -56,13 +71,35 @@ const Separation::Body& Separation::body(std::uint32_t index) {
   return made;
 }
 
-Separation::LightExtent Separation::lightAlong(const glm::dvec3& direction) const {
-  LightExtent extent;  // the centre, relative to which all is, is at 0
-  for (const glm::dvec3& corner : lightCorners_) {
-    const double along = glm::dot(direction, corner);
-    extent.low = std::min(extent.low, along), extent.high = std::max(extent.high, along);
+const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
+  body(index);
+  Body& shape = *bodies_[index];
+  if (!shape.planes.empty()) return shape.planes;
+  const scene::SupportingPlanes& support = *input_.objects[index].support;
+  const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(shape.fromObject)));
+  shape.planes.reserve(support.ofFaces.size() + 6);
+  const auto add = [&](const scene::SupportingPlane& plane) {
+    const scene::SupportingPlane there = placed(plane, shape.fromObject, normalFromObject);
+    Plane made{there.normal, there.offset, &plane};
+    for (const glm::dvec3& corner : lightCorners_) {  // their centre, relative to which all is, is at 0
+      made.lightReach = std::max(made.lightReach, glm::dot(made.normal, corner));
+    }
+    shape.planes.push_back(made);
+  };
+  for (const scene::SupportingPlane& plane : support.ofFaces) add(plane);
+  shape.facePlanes = shape.planes.size();
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const double side : {-1.0, 1.0}) {
+      glm::dvec3 normal(0.0);
+      normal[axis] = side;
+      const bool known = std::ranges::any_of(
+          support.ofFaces, [&](const scene::SupportingPlane& plane) { return plane.normal == normal; });
+      if (known) continue;
+      add({normal, side > 0.0 ? support.bounds.high[axis] : -support.bounds.low[axis], {}});
+      shape.planes.back().source = nullptr;
+    }
   }
-  return extent;
+  return shape.planes;
 }
 
 double Separation::rounding(std::uint32_t index, const glm::dvec3& direction) {
@@ -91,12 +128,10 @@ bool Separation::reachesOnlyFrom(std::uint32_t index, const glm::dvec3& directio
 }
 
 bool Separation::enclosesLight(std::uint32_t index) {
-  const Body& shape = body(index);
-  for (std::size_t i = 0; i < shape.facePlanes; ++i) {
-    const scene::SupportingPlane& plane = shape.planes[i];
-    if (lightAlong(plane.normal).high > plane.offset + rounding(index, plane.normal)) return false;
-  }
-  return true;
+  const std::span<const Plane> ofFaces = facePlanes(index);
+  return std::ranges::all_of(ofFaces, [&](const Plane& plane) {
+    return plane.lightReach <= plane.offset + rounding(index, plane.normal);
+  });
 }
 
 bool Separation::shadowsItself(std::uint32_t index) {
@@ -104,42 +139,95 @@ bool Separation::shadowsItself(std::uint32_t index) {
   // The part of the light behind a flat receiver's own plane is not its own doing.
   if (support.planar) return false;
   if (!support.convex) return true;
-  const Body& shape = body(index);
-  for (std::size_t i = 0; i < shape.facePlanes; ++i) {
-    const scene::SupportingPlane& plane = shape.planes[i];
+  for (const Plane& plane : facePlanes(index)) {
     const double slack = rounding(index, plane.normal);
-    const LightExtent extent = lightAlong(plane.normal);
-    if (extent.low < plane.offset - slack && extent.high > plane.offset + slack) return true;
+    if (-plane.lightReach < plane.offset - slack && plane.lightReach > plane.offset + slack) return true;
   }
-  return maySeeInside(input_, index) && !enclosesLight(index);
+  if (enclosesLight(index)) return false;
+  askedCamera_ = true;
+  return maySeeInside(input_, index);
+}
+
+/// What of the receiver lies behind the plane is seen only through the plane's outline.
+bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver,
+                                   double slack) {
+  if (plane.source == nullptr || plane.source->outline.empty() || input_.camera == nullptr) return false;
+  const Body& shape = body(receiver);
+  const auto heightOf = [&](const glm::dvec3& point) { return glm::dot(plane.normal, point) - plane.offset; };
+  // What does not come before the plane at all is another matter: hardly ever is it wholly hidden.
+  if (std::ranges::all_of(shape.corners, [&](const glm::dvec3& c) { return heightOf(c) <= slack; }))
+    return false;
+  std::vector<glm::dvec3> outline;
+  for (const glm::dvec3& corner : plane.source->outline) {
+    outline.emplace_back(body(caster).fromObject * glm::dvec4(corner, 1.0));
+  }
+  // The part of a triangle behind is the hull of its corners there and of where its edges pass: so is its
+  // image on the plane, seen from anywhere before it. Where they pass needs no camera.
+  std::vector<glm::dvec3> behind;
+  const scene::TriangleMesh& mesh = *input_.objects[receiver].mesh;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<glm::dvec3, 3> corners;
+    std::array<double, 3> heights;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 position(mesh.positions[mesh.indices[3 * t + k]]);
+      corners[k] = glm::dvec3(shape.fromObject * glm::dvec4(position, 1.0));
+      heights[k] = heightOf(corners[k]);
+    }
+    if (std::ranges::min(heights) >= -slack) continue;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t next = (k + 1) % 3;
+      if (heights[k] < 0.0) behind.push_back(corners[k]);
+      if ((heights[k] < 0.0) == (heights[next] < 0.0)) continue;
+      const double share = heights[k] / (heights[k] - heights[next]);
+      const glm::dvec3 passes = corners[k] + (corners[next] - corners[k]) * share;
+      if (!isInside(plane.normal, outline, passes, slack)) return false;
+    }
+  }
+  askedCamera_ = true;
+  const double eyeHeight = heightOf(eye_);
+  // Nor may the near plane open what hides.
+  if (eyeHeight <= slack ||
+      std::ranges::any_of(nearCorners_, [&](const glm::dvec3& c) { return heightOf(c) <= slack; })) {
+    return false;
+  }
+  return std::ranges::all_of(behind, [&](const glm::dvec3& point) {
+    const glm::dvec3 seenAt = eye_ + (point - eye_) * (eyeHeight / (eyeHeight - heightOf(point)));
+    return isInside(plane.normal, outline, seenAt, slack);
+  });
 }
 
 bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
+  askedCamera_ = false;
+  const bool answer = proves(caster, receiver);
+  if (askedCamera_) byCamera_.push_back({caster, receiver, answer});
+  return answer;
+}
+
+bool Separation::proves(std::uint32_t caster, std::uint32_t receiver) {
   const PlannedObject &c = input_.objects[caster], &r = input_.objects[receiver];
   if (c.support == nullptr || r.support == nullptr || c.mesh == nullptr || r.mesh == nullptr) return false;
   if (caster == receiver) return !shadowsItself(caster);
-  for (const scene::SupportingPlane& plane : body(caster).planes) {
+  for (const Plane& plane : planes(caster)) {
+    // The light reaches as far to one side of its centre as to the other.
     const double slack = rounding(caster, plane.normal) + rounding(receiver, plane.normal);
-    if (lightAlong(plane.normal).low >= plane.offset - slack &&
-        reachesOnlyFrom(receiver, plane.normal, plane.offset - slack)) {
+    if (-plane.lightReach >= plane.offset - slack &&
+        (reachesOnlyFrom(receiver, plane.normal, plane.offset - slack) ||
+         hidesWhatIsBehind(caster, plane, receiver, slack))) {
       return true;
     }
   }
-  for (const scene::SupportingPlane& plane : body(receiver).planes) {
+  for (const Plane& plane : planes(receiver)) {
     const double slack = rounding(caster, plane.normal) + rounding(receiver, plane.normal);
-    if (lightAlong(plane.normal).high <= plane.offset + slack &&
+    if (plane.lightReach <= plane.offset + slack &&
         reachesOnlyFrom(caster, plane.normal, plane.offset - slack)) {
       return true;
     }
   }
   if (!c.support->convex || !enclosesLight(caster)) return false;
-  const Body& around = body(caster);
-  for (std::size_t i = 0; i < around.facePlanes; ++i) {
-    const scene::SupportingPlane& plane = around.planes[i];
+  return std::ranges::all_of(facePlanes(caster), [&](const Plane& plane) {
     const double slack = rounding(caster, plane.normal) + rounding(receiver, plane.normal);
-    if (!reachesOnlyFrom(receiver, -plane.normal, -plane.offset - slack)) return false;
-  }
-  return true;
+    return reachesOnlyFrom(receiver, -plane.normal, -plane.offset - slack);
+  });
 }
 
 bool maySeeInside(const FrameInput& input, std::uint32_t object) {

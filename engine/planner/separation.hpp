@@ -7,6 +7,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "planner/frame_planner.hpp"
@@ -20,6 +21,9 @@ namespace halfshadow::planner {
 /// - by itself, when it is flat; or when it is a closed convex body, no face's plane cuts the light, and it
 /// is
 ///   seen from outside or holds the light: its faces then see all of the light or do not face it.
+/// - where parts of the receiver reach through such a plane but are seen by no one: the camera is on the
+///   light's side, too, and looks at them through a face of the caster that lies in the plane (what is sunk
+///   into a ground).
 /// Touching is allowed, within the rounding of the coordinates to float. Objects without shape are never
 /// proved anything of.
 class Separation {
@@ -27,31 +31,50 @@ class Separation {
   Separation(const FrameInput& input, const scene::AreaLight& light);
   /// Proved: no ray from a point of the receiver that can be seen to the light meets the caster.
   bool cannotShadow(std::uint32_t caster, std::uint32_t receiver);
+  /// What the answers so far would have to be asked again for when the camera moves.
+  struct ByCamera {
+    std::uint32_t caster = 0, receiver = 0;
+    bool cannotShadow = false;
+  };
+  const std::vector<ByCamera>& byCamera() const { return byCamera_; }
 
  private:
+  struct Plane {
+    glm::dvec3 normal{0.0};
+    double offset = 0.0;
+    const scene::SupportingPlane* source = nullptr;  ///< of faces; null for sides of the box
+    double lightReach = 0.0;  ///< of the light along the normal, from its centre, either way
+  };
   /// An object as the proofs need it, in world axes, relative to the light's centre.
   struct Body {
-    std::vector<scene::SupportingPlane> planes;  ///< of faces first, then of the box
-    std::size_t facePlanes = 0;
     std::array<glm::dvec3, 8> corners;  ///< of the box in object space
     glm::dvec3 center{0.0};
     glm::dmat4 fromObject{1.0};
     glm::dvec3 largestTranslation{0.0};
-  };
-  struct LightExtent {
-    double low = 0.0, high = 0.0;
+    std::vector<Plane> planes;  ///< of faces first, then of the box; made when first asked for
+    std::size_t facePlanes = 0;
   };
   const Body& body(std::uint32_t object);
-  LightExtent lightAlong(const glm::dvec3& direction) const;
+  const std::vector<Plane>& planes(std::uint32_t object);
+  std::span<const Plane> facePlanes(std::uint32_t object) {
+    const std::vector<Plane>& all = planes(object);
+    return {all.data(), bodies_[object]->facePlanes};
+  }
   double rounding(std::uint32_t object, const glm::dvec3& direction);
+  bool proves(std::uint32_t caster, std::uint32_t receiver);
   bool reachesOnlyFrom(std::uint32_t object, const glm::dvec3& direction, double least);
   bool shadowsItself(std::uint32_t object);
+  bool hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver, double slack);
   bool enclosesLight(std::uint32_t object);
 
   const FrameInput& input_;
   const scene::AreaLight& light_;
   std::array<glm::dvec3, 4> lightCorners_;
+  glm::dvec3 eye_{0.0};  ///< relative to the light's centre, as are the near plane's corners
+  std::array<glm::dvec3, 4> nearCorners_{};
   std::vector<std::optional<Body>> bodies_;
+  std::vector<ByCamera> byCamera_;
+  bool askedCamera_ = false;
 };
 
 /// The eye, or a part of the near plane, may be inside the object: then it may be seen from within.

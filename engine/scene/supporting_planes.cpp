@@ -45,6 +45,32 @@ std::vector<std::size_t> largestFaces(const TriangleMesh& mesh) {
   return order;
 }
 
+/// Of points in a plane, in order about its normal.
+/// Based on: Andrew, Another Efficient Algorithm for Convex Hulls in Two Dimensions, 1979.
+std::vector<glm::dvec3> convexHull(std::vector<glm::dvec3> points, const glm::dvec3& normal) {
+  const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
+  const glm::dvec3 x = glm::normalize(glm::cross(helper, normal)), y = glm::cross(normal, x);
+  const auto at = [&](const glm::dvec3& p) { return glm::dvec2(glm::dot(x, p), glm::dot(y, p)); };
+  std::ranges::sort(points, [&](const glm::dvec3& a, const glm::dvec3& b) {
+    const glm::dvec2 pa = at(a), pb = at(b);
+    return pa.x != pb.x ? pa.x < pb.x : pa.y < pb.y;
+  });
+  std::vector<glm::dvec3> hull;
+  const auto extend = [&](const glm::dvec3& p, std::size_t least) {
+    while (hull.size() >= least + 2) {
+      const glm::dvec2 a = at(hull[hull.size() - 2]), b = at(hull.back()), c = at(p);
+      if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0) break;
+      hull.pop_back();
+    }
+    hull.push_back(p);
+  };
+  for (const glm::dvec3& p : points) extend(p, 0);
+  const std::size_t lower = hull.size();
+  for (auto p = points.rbegin(); p != points.rend(); ++p) extend(*p, lower - 1);
+  if (!hull.empty()) hull.pop_back();
+  return hull;
+}
+
 class Finder {
  public:
   Finder(const TriangleMesh& mesh, SupportingPlanes& planes) : mesh_(mesh), planes_(planes) {
@@ -71,8 +97,11 @@ class Finder {
         all && planes_.ofFaces.size() == 2 &&
         glm::dot(planes_.ofFaces[0].normal, planes_.ofFaces[1].normal) < 0.0 &&
         planes_.ofFaces[0].offset + planes_.ofFaces[1].offset <= roundingAlong(planes_.ofFaces[0].normal);
-    planes_.convex = all && !planes_.planar && mesh_.shellCount == 1 && mesh_.statistics.closed() &&
-                     mesh_.statistics.nonManifoldEdges == 0;
+    const bool isBody = all && !planes_.planar && mesh_.shellCount == 1 && mesh_.statistics.closed() &&
+                        mesh_.statistics.nonManifoldEdges == 0;
+    planes_.convex = isBody;
+    if (!planes_.planar && !planes_.convex) return;
+    for (SupportingPlane& plane : planes_.ofFaces) findOutline(plane);
   }
 
  private:
@@ -80,12 +109,14 @@ class Finder {
     return kRounding * glm::dot(glm::abs(normal), planes_.largestCoordinate);
   }
 
-  bool liesInAny(const Face& face) const {
-    return std::ranges::any_of(planes_.ofFaces, [&](const SupportingPlane& plane) {
-      return std::ranges::all_of(face.corners, [&](const glm::dvec3& corner) {
-        return std::abs(glm::dot(plane.normal, corner) - plane.offset) <= roundingAlong(plane.normal);
-      });
+  bool liesIn(const SupportingPlane& plane, const Face& face) const {
+    return std::ranges::all_of(face.corners, [&](const glm::dvec3& corner) {
+      return std::abs(glm::dot(plane.normal, corner) - plane.offset) <= roundingAlong(plane.normal);
     });
+  }
+  bool liesInAny(const Face& face) const {
+    return std::ranges::any_of(planes_.ofFaces,
+                               [&](const SupportingPlane& plane) { return liesIn(plane, face); });
   }
 
   void addIfSupporting(const Face& face, const glm::dvec3& normal) {
@@ -97,6 +128,30 @@ class Finder {
       plane.offset = std::max(plane.offset, along);
     }
     planes_.ofFaces.push_back(plane);
+  }
+
+  void findOutline(SupportingPlane& plane) const {
+    std::vector<glm::dvec3> corners;
+    double towards = 0.0, away = 0.0;  // area of the triangles wound to either side
+    for (std::size_t t = 0; t < mesh_.triangleCount(); ++t) {
+      const Face face = faceOf(mesh_, t);
+      if (std::abs(glm::dot(face.normal, plane.normal)) < 0.5 || !liesIn(plane, face)) continue;
+      corners.insert(corners.end(), face.corners.begin(), face.corners.end());
+      const double area = 0.5 * glm::dot(plane.normal, glm::cross(face.corners[1] - face.corners[0],
+                                                                  face.corners[2] - face.corners[0]));
+      (area > 0.0 ? towards : away) += std::abs(area);
+    }
+    std::vector<glm::dvec3> hull = convexHull(corners, plane.normal);
+    double area = 0.0, perimeter = 0.0;
+    for (std::size_t i = 0; i < hull.size(); ++i) {
+      const glm::dvec3 &a = hull[i], &b = hull[(i + 1) % hull.size()];
+      area += 0.5 * glm::dot(plane.normal, glm::cross(a - hull[0], b - hull[0]));
+      perimeter += glm::length(b - a);
+    }
+    const double rounding = kRounding * glm::length(planes_.largestCoordinate) * perimeter;
+    const auto fills = [&](double covered) { return std::abs(covered - std::abs(area)) <= rounding; };
+    if (hull.size() >= 3 && (fills(towards) || (planes_.planar && fills(away))))
+      plane.outline = std::move(hull);
   }
 
   const TriangleMesh& mesh_;

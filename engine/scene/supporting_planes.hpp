@@ -17,6 +17,9 @@ namespace halfshadow::scene {
 struct SupportingPlane {
   glm::dvec3 normal{0, 1, 0};
   double offset = 0.0;
+  /// Corners, in order, of what the mesh covers in this plane, where that is one convex polygon without holes
+  /// and the mesh is flat or convex; else empty. What is seen through it is the mesh.
+  std::vector<glm::dvec3> outline;
 };
 
 struct SupportingPlanes {

@@ -88,7 +88,7 @@ TEST_F(CliTest, APictureOfNothingIsAnError) {
                  "0", "--camera", away},
                 1, {"nothing to measure"});
   // One colour all over, but a surface.
-  runJson(renderBox({"--visibility", path("v.exr"), "--camera", "eye=15,3,0 target=15,0,0.1", "-t", "none"}));
+  runJson(renderBox({"--visibility", path("v.exr"), "--camera", "eye=15,3,0 target=15,0,0.1"}));
 }
 
 TEST_F(CliTest, BrightnessDependsOnTheLightAlone) {

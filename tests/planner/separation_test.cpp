@@ -159,11 +159,47 @@ TEST(Separation, AGroundUnderWhatStandsOnItIsNoCaster) {
   }
 }
 
-TEST(Separation, AGroundThatSomethingReachesBelowStays) {
+TEST(Separation, WhatIsSunkIntoAGroundCountsOnlyWhereItIsSeen) {
+  for (const bool asSlab : {false, true}) {
+    World sunk;
+    const auto ground = sunk.add(asSlab ? box({-9, -1, -9}, {9, 0, 9}) : grid(4, 9));
+    sunk.add(box({-1, -2, -1}, {1, 2, 1}), glm::rotate(glm::dmat4(1.0), 0.3, glm::dvec3(0.6, 0.8, 0)));
+    const scene::AreaLight light = lightAt({3, 12, 2});
+    EXPECT_FALSE(sunk.casts(sunk.plan(light, kCamera), ground));
+    // From below, and past the edge, its foot is seen.
+    const scene::Camera below{.eyeWorld = {-6, -7, 5}, .targetWorld = {0, 0, 0}};
+    EXPECT_TRUE(sunk.casts(sunk.plan(light, below), ground));
+    World atTheEdge;
+    const auto plate = atTheEdge.add(asSlab ? box({-9, -1, -9}, {9, 0, 9}) : grid(4, 9));
+    atTheEdge.add(box({-9.5f, -2, -1}, {-8, 2, 1}));
+    EXPECT_TRUE(atTheEdge.casts(atTheEdge.plan(light, kCamera), plate));
+  }
+}
+
+TEST(Separation, TheCameraDecidesAnewWhenItMovesBelowAGround) {
   World sunk;
-  const auto ground = sunk.add(grid(4, 60));
-  sunk.add(box({-1, -0.01f, -1}, {1, 2, 1}));
-  EXPECT_TRUE(sunk.casts(sunk.plan(lightAt({3, 12, 2}), kCamera), ground));
+  const auto ground = sunk.add(grid(4, 9));
+  sunk.add(box({-1, -2, -1}, {1, 2, 1}));
+  const scene::AreaLight light = lightAt({3, 12, 2});
+  const std::uint64_t revision = 1;
+  FramePlanner planner;
+  const auto keyAt = [&](const glm::dvec3& eye, bool casts) {
+    const scene::Camera camera{.eyeWorld = eye, .targetWorld = {0, 0, 0}};
+    const FramePlan plan = planner.plan({.objects = sunk.objects(),
+                                         .camera = &camera,
+                                         .aspectWidthOverHeight = 1.3,
+                                         .lights = {&light, 1},
+                                         .lightRevisions = {&revision, 1}});
+    EXPECT_EQ(sunk.casts(plan, ground), casts);
+    return plan.lights[0].contentKey;
+  };
+  const std::uint64_t above = keyAt({-6, 7, 5}, false);
+  EXPECT_EQ(keyAt({6, 3, 5}, false), above) << "moved about above, nothing is remade";
+  EXPECT_NE(keyAt({6, -3, 5}, true), above);
+  EXPECT_EQ(keyAt({-6, 7, 5}, false), above);
+}
+
+TEST(Separation, AGroundThatMayShadowItselfStays) {
   World dented;
   const auto hollow = dented.add(grid(4, 60, 0.5f));
   EXPECT_TRUE(dented.casts(dented.plan(lightAt({30, 4, 2}), kCamera), hollow)) << "it may shadow itself";

@@ -323,6 +323,65 @@ TEST(GltfSkin, JointsMoveTheirVertices) {
   EXPECT_LT(glm::length(vertexWorld(description, 2) - glm::dvec3(0, 1, 4)), kTiny);
 }
 
+/// A tetrahedron in two primitives (bottom and sides) of one skin with one joint below `root`.
+GltfWriter skinnedTetrahedron(const Json& root, const Json& joint) {
+  GltfWriter writer;
+  const int position = writer.addAccessor(std::vector<float>{0, 0, 0, .3f, 0, 0, 0, .7f, 0, 0, 0, 1.1f},
+                                          testing::kFloat, "VEC3", 3);
+  const int joints = writer.addAccessor(std::vector<std::uint8_t>(16, 0), testing::kUnsignedByte, "VEC4", 4);
+  const int weights = writer.addAccessor(std::vector<float>{1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0},
+                                         testing::kFloat, "VEC4", 4);
+  for (const std::vector<std::uint16_t>& corners :
+       {std::vector<std::uint16_t>{0, 2, 1, 0, 1, 3, 0, 3, 2, 1, 2, 3},
+        std::vector<std::uint16_t>{0, 2, 1}}) {
+    const int indices = writer.addAccessor(corners, testing::kUnsignedShort, "SCALAR", 1);
+    writer.addPrimitive(
+        {{"attributes", {{"POSITION", position}, {"JOINTS_0", joints}, {"WEIGHTS_0", weights}}},
+         {"indices", indices}});
+  }
+  writer.json["skins"] = Json::array({{{"joints", {1}}}});
+  writer.json["nodes"] = Json::array({{{"mesh", 0}, {"skin", 0}}, joint, root});
+  writer.json["nodes"][2]["children"] = {1};
+  writer.json["scenes"][0]["nodes"] = {0, 2};
+  return writer;
+}
+
+TEST(GltfSkin, KeepsItsShapeWhereverTheSkeletonStands) {
+  const double place = 12345678.125;
+  const scene::SceneDescription near =
+      loaded(skinnedTetrahedron({{"translation", {0, 0, 0}}}, {{"translation", {.1, .2, .3}}}));
+  const scene::SceneDescription far =
+      loaded(skinnedTetrahedron({{"translation", {place, 0, -place}}}, {{"translation", {.1, .2, .3}}}));
+  for (std::size_t object = 0; object < 2; ++object) {
+    EXPECT_EQ(far.objects[object].worldFromObject, far.objects[0].worldFromObject)
+        << "primitives of a node share a place, so that shared vertices stay shared";
+    for (std::size_t i = 0; i < 4; ++i) {
+      const auto worldOf = [&](const scene::SceneDescription& scene) {
+        const scene::SceneObject& o = scene.objects[object];
+        return glm::dvec3(o.worldFromObject * glm::dvec4(glm::dvec3(o.mesh->positions[i]), 1.0));
+      };
+      EXPECT_LT(glm::length(worldOf(far) - worldOf(near) - glm::dvec3(place, 0, -place)), 2e-7);
+    }
+  }
+}
+
+TEST(GltfSkin, AMirroredSkeletonIsWoundOutwardLikeItsTwin) {
+  const auto volumeOf = [](const scene::SceneDescription& scene) {
+    const scene::TriangleMesh& mesh = *scene.objects[0].mesh;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+      const auto at = [&](std::size_t k) { return glm::dvec3(mesh.positions[mesh.indices[i + k]]); };
+      sum += glm::dot(at(0), glm::cross(at(1), at(2))) / 6.0;
+    }
+    return sum * glm::determinant(glm::dmat3(scene.objects[0].worldFromObject));
+  };
+  const double expected = .3 * .7 * 1.1 / 6.0;
+  EXPECT_NEAR(volumeOf(loaded(skinnedTetrahedron({{"scale", {1, 1, 1}}}, {{"translation", {.1, .2, .3}}}))),
+              expected, 1e-6);
+  EXPECT_NEAR(volumeOf(loaded(skinnedTetrahedron({{"scale", {-1, 1, 1}}}, {{"translation", {.1, .2, .3}}}))),
+              expected, 1e-6);
+}
+
 TEST(GltfMaterials, ColourAndDecodedImage) {
   GltfWriter writer = quadWriter();
   const int texcoord =

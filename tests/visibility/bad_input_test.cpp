@@ -106,6 +106,17 @@ TEST_F(BadInput, Lights) {
   light = good;
   light.intensity = kNan;
   refuse(light, ErrorCode::invalidLight);
+  for (const double distance : {-1.0, kNan, kInfinity}) {
+    light = good;
+    light.referenceDistance = distance;
+    refuse(light, ErrorCode::invalidLight);
+  }
+  // A line has no side to shine to; a point has the one of `emission`.
+  for (const bool u : {false, true}) {
+    light = good;
+    std::fill_n(u ? light.halfU : light.halfV, 3, 0.0);
+    refuse(light, ErrorCode::invalidLight);
+  }
   light = {};
   light.emission[1] = 0.0;
   refuse(light, ErrorCode::invalidLight);

@@ -44,7 +44,8 @@ struct EngineDesc {
   const char* shaderFolder = nullptr;
 };
 
-/// A triangle list, copied during the call. Indices counter-clockwise seen from outside.
+/// A triangle list, copied during the call. Closed shells may be wound either way, even unlike themselves:
+/// the engine winds them outward. Everything is seen, and casts, from both sides.
 struct MeshDesc {
   const float* positions = nullptr;  ///< vertexCount × 3, object space, scene units
   std::size_t positionStrideBytes = 12;

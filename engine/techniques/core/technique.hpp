@@ -42,7 +42,8 @@ struct Support {
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
   const GpuMesh* mesh = nullptr;
-  bool casts = true, receives = true;
+  bool casts = true;  ///< of receivers: it is among the casters of some light in this frame
+  bool receives = true;
   glm::dmat4 worldFromObject{1.0};
   glm::vec4 baseColor{1.0f};
   const gl::Texture* baseColorTexture = nullptr;
@@ -94,7 +95,7 @@ struct LightFrame {
   std::span<const DrawItem> casters;  ///< those the light view is made from
   scene::CasterGroups& groups;        ///< of `casters`, kept between frames: see placedCasters()
   std::span<const DrawItem> receivers;
-  /// Objects that receive but cast nothing, for maps that hold the whole scene.
+  /// Objects that receive but are not among `casters`, for maps that hold the whole scene.
   std::span<const DrawItem> shadowlessReceivers;
   std::uint64_t contentKey = 0;  ///< of light, casters and fit
   std::uint64_t sceneKey = 0;    ///< the same with the receivers
