@@ -60,6 +60,7 @@ class Analytic : public SharedEngineTest, public testing::WithParamInterface<Met
 };
 class AnalyticSoft : public Analytic {};
 class AnalyticEngine : public SharedEngineTest {};
+class FourLights : public SharedEngineTest {};
 
 TEST_P(Analytic, PlateHasExactUmbraAndExactLight) {
   const PlateOverGround plate;
@@ -274,7 +275,7 @@ TEST_F(AnalyticEngine, VsmIsLitOutsideAndDarkInside) {
   }
 }
 
-TEST_F(AnalyticEngine, FourLightsGiveWhatEachGivesAlone) {
+TEST_F(FourLights, GiveWhatEachGivesAlone) {
   renderer().load(builtinScene("figure@light=0.3"));
   const scene::AreaLight first = builtinScene("figure@light=0.3").lights.front();
   std::vector<scene::AreaLight> lights;
@@ -284,6 +285,9 @@ TEST_F(AnalyticEngine, FourLightsGiveWhatEachGivesAlone) {
     ASSERT_TRUE(light);
     lights.push_back(*light);
   }
+  // A quarter of the pixels: every technique, four lights at once and each alone.
+  renderer().desc().target.width = kWidth / 2;
+  renderer().desc().target.height = kHeight / 2;
   for (const std::string& technique : techniquesBut(renderer().engine(), {{"none", "it has no shadow"}})) {
     renderer().setLights(lights);
     const Image together = renderer().render(Configuration{technique});
@@ -297,7 +301,7 @@ TEST_F(AnalyticEngine, FourLightsGiveWhatEachGivesAlone) {
       }
       // None: the same maps, the same arithmetic, another channel.
       EXPECT_EQ(differing, 0) << technique << ", light " << i;
-      EXPECT_GE(shadowed, 200) << technique << ", light " << i << " must shadow something";
+      EXPECT_GE(shadowed, 50) << technique << ", light " << i << " must shadow something";
     }
   }
 }

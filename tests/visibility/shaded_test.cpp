@@ -61,8 +61,12 @@ TEST_F(Shaded, IsAmbientPlusLightTimesVisibility) {
   }
 }
 
-// Small plates all as far from the light as each other, each turned away from it by another angle.
-TEST_F(Shaded, FollowsTheCosine) {
+enum class Normals { given, missing };
+class ShadedPlates : public Shaded, public testing::WithParamInterface<Normals> {};
+
+// Small plates all as far from the light as each other, each turned away from it by another angle. Without
+// normals, facets are shaded flat.
+TEST_P(ShadedPlates, FollowTheCosine) {
   constexpr double kDegrees[] = {0.0, 15.0, 30.0, 45.0, 60.0, 75.0, 87.0};
   const glm::dvec3 center(0, 10, 0);
   scene::SceneDescription scene;
@@ -81,6 +85,7 @@ TEST_F(Shaded, FollowsTheCosine) {
     for (const glm::dvec2& corner :
          {glm::dvec2(-1, -1), glm::dvec2(1, -1), glm::dvec2(1, 1), glm::dvec2(-1, 1)})
       plate.addVertex(place + kHalf * (corner.x * right + corner.y * up));
+    if (GetParam() == Normals::given) plate.normals.assign(4, glm::vec3(normal));
     plate.addTriangle(0, 1, 2);
     plate.addTriangle(0, 2, 3);
     scene.objects.push_back(scenes::casterOf("plate", plate));
@@ -112,6 +117,11 @@ TEST_F(Shaded, FollowsTheCosine) {
         << kDegrees[k] << " degrees";
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Normals, ShadedPlates, testing::Values(Normals::given, Normals::missing),
+                         [](const auto& tested) {
+                           return tested.param == Normals::given ? "given" : "missing";
+                         });
 
 TEST_F(Shaded, LightsOfAnyColourAddUp) {
   const scene::SceneDescription scene = PlateOverGround().scene();
