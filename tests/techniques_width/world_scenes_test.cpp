@@ -60,8 +60,8 @@ class WorldScenes : public SharedEngineTest {
 // that the shadow is a few pixels, and from beside it.
 TEST_F(WorldScenes, GroundOutsidePenumbraeIsExactlyLit) {
   for (const double lightHalf : {0.3, 2.0, 6.0}) {
-    for (const double groundHalf : {30.0, 300.0, 3000.0}) {
-      for (const double away : {0.0, 10.0, 60.0}) {
+    for (const double groundHalf : {30.0, 3000.0}) {
+      for (const double away : {0.0, 60.0}) {
         PlateOverGround plate;
         plate.lightHalf = lightHalf;
         scene::SceneDescription scene = plate.scene();
@@ -183,14 +183,12 @@ TEST_F(WorldScenes, APostBesideTheLampLeavesOtherPenumbraeAlone) {
     const double without = errorsOf(plate, plate.scene(), configuration).penumbra;
     // The noise of the samples that take over; without highp their depths have 16 bits for a range of 1:1000.
     const double least = isForcedOff("highp") ? 0.1 : 0.03;
-    for (const double top : {9.0, 11.0, 11.5, 11.9, 12.0, 12.5, 20.0}) {
-      for (const double x : {4.5, 6.0}) {
-        scene::SceneDescription scene = plate.scene();
-        scene.objects.push_back(boxObject({x, 0.5 * top, 0}, {0.15, 0.5 * top, 0.15}));
-        const Errors result = errorsOf(plate, scene, configuration);
-        EXPECT_LT(result.penumbra, std::max(1.3 * without, least)) << configuration.technique << " " << top;
-        EXPECT_LT(result.lit, 0.1) << configuration.technique << " " << top;
-      }
+    for (const double top : {9.0, 11.0, 11.5, 11.9, 12.0, 12.5}) {
+      scene::SceneDescription scene = plate.scene();
+      scene.objects.push_back(boxObject({4.5, 0.5 * top, 0}, {0.15, 0.5 * top, 0.15}));
+      const Errors result = errorsOf(plate, scene, configuration);
+      EXPECT_LT(result.penumbra, std::max(1.3 * without, least)) << configuration.technique << " " << top;
+      EXPECT_LT(result.lit, 0.1) << configuration.technique << " " << top;
     }
   }
 }
