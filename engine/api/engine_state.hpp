@@ -40,6 +40,7 @@ struct LightCache {
   std::uint64_t key = 0;
   int mapSize = 0;
   std::vector<glm::dvec3> casterPointsWorld;
+  scene::AreaLight light;  ///< within reach of single precision
   planner::LightFit fit;
 };
 
