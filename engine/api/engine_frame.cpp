@@ -5,6 +5,7 @@
 
 #include "api/engine_state.hpp"
 #include "api/receiver_reach.hpp"
+#include "planner/light_reach.hpp"
 
 namespace halfshadow {
 namespace {
@@ -119,8 +120,9 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
     for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
-    cache.fit =
-        planner::fitLight(light, cache.casterPointsWorld, {.mapSize = mapSize, .pointsAreTriangles = true});
+    cache.light = planner::lightWithinReach(light, cache.casterPointsWorld);
+    cache.fit = planner::fitLight(cache.light, cache.casterPointsWorld,
+                                  {.mapSize = mapSize, .pointsAreTriangles = true});
     cache.key = plan.contentKey;
     cache.mapSize = mapSize;
   }
@@ -153,7 +155,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       .settings = *settings,
       .graph = frame.graph,
       .view = frame.view,
-      .light = light,
+      .light = cache.light,
       .lightIndex = static_cast<int>(index),
       .fit = cache.fit,
       .casterPointsWorld = cache.casterPointsWorld,

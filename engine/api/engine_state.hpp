@@ -49,6 +49,7 @@ struct LightCache {
   int mapSize = 0;
   std::vector<glm::dvec3> casterPointsWorld;
   scene::CasterGroups groups;
+  scene::AreaLight light;  ///< within reach of single precision
   planner::LightFit fit;
 };
 

@@ -121,7 +121,8 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
     MapSpace flat = space;
     for (int column = 0; column < 4; ++column)
       flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
-    program->set(encoder.context(), "u_nearDistance", 0.0f);
+    // The ramp repeats at depth 1.
+    program->set(encoder.context(), "u_nearDistance", 1e-3f);
     drawItems(encoder, *program, flat, content, infinite);
   };
   frame.graph.addPass(std::move(pass));
