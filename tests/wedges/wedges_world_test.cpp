@@ -149,6 +149,48 @@ TEST_P(WedgesWorld, PiecesOfOneThingCastAsTheThing) {
   EXPECT_LE(onCasters, 20);
 }
 
+/// A rectangle that casts and receives: a corner and two sides, turned towards their cross product.
+scene::SceneObject wall(const glm::dvec3& corner, const glm::dvec3& u, const glm::dvec3& v) {
+  scenes::Shape shape;
+  for (const glm::dvec3& p : {corner, corner + u, corner + u + v, corner + v}) shape.addVertex(p);
+  shape.addTriangle(0, 1, 2);
+  shape.addTriangle(0, 2, 3);
+  return scenes::casterOf("wall", shape);
+}
+
+TEST_P(WedgesWorld, RoomsOfSingleWallsAreLitThroughTheirOpenings) {
+  // Open towards +z, where the camera stands; the light shines in from outside, over the right wall and the
+  // ceiling, which hide it from most of the room. Their inner faces, turned away from it, are not looked at.
+  scene::SceneDescription scene{.name = "room"};
+  scene.objects = {wall({-2, 0, -2}, {0, 0, 4}, {4, 0, 0}), wall({-2, 0, -2}, {4, 0, 0}, {0, 4, 0}),
+                   wall({-2, 0, -2}, {0, 4, 0}, {0, 0, 4}), wall({2, 0, -2}, {0, 0, 4}, {0, 4, 0}),
+                   wall({-2, 4, -2}, {4, 0, 0}, {0, 0, 4})};
+  scene.objects.push_back(boxObject({-0.9, 0.6, -0.3}, {0.5, 0.6, 0.5}));
+  scene.objects.back().receives = true;
+  scene.camera = scene::Camera{.eyeWorld = {1.5, 3.0, 6.0},
+                               .targetWorld = {-1.2, 0.6, -0.8},
+                               .verticalFovRadians = 0.5,
+                               .nearDistance = 0.1,
+                               .farDistance = 100.0};
+  for (const glm::dvec3& from : {glm::dvec3(5, 6, 7), glm::dvec3(1, 3, 9), glm::dvec3(8, 3, 6)}) {
+    const auto light = scene::areaLightAimed(from, {-0.5, 1, 0}, 0.01, 0.01, {0, 1, 0});
+    ASSERT_TRUE(light);
+    scene.lights = {*light};
+    const Image seen = image(scene);
+    // So small a light shadows as its centre does, which volumes count exactly.
+    const Image hard = renderer().render(Configuration{"shadow-volume", {}});
+    int wrong = 0, dark = 0, lit = 0;
+    for (std::size_t i = 0; i < hard.pixels(); ++i) {
+      wrong += std::abs(seen.byte(i) - hard.byte(i)) > 160;
+      dark += hard.byte(i) == 0, lit += hard.byte(i) == 255;
+    }
+    EXPECT_GT(dark, 200);
+    EXPECT_GT(lit, 500);
+    // Outlines and edges between walls: a pixel's middle lies on either side.
+    EXPECT_LE(wrong, 80) << from.x;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Techniques, WedgesWorld,
                          testing::Values(Tested{"wedges", "screen"}, Tested{"wedges", "receivers"},
                                          Tested{"wedges", "auto"}, Tested{"wedges-probabilistic", "auto"},

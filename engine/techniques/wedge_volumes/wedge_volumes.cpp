@@ -19,8 +19,9 @@ constexpr double kBeyondReceiver = 1.01;
 /// Nearest height of a caster, in units of the nearest caster's distance: what reaches behind the light is
 /// cut here.
 constexpr double kMinHeight = 1e-6;
-/// Half a side of the smallest light, in the same unit: penumbrae that no picture shows.
-constexpr double kMinHalfLength = 1e-5;
+/// Half a side of the smallest light, in the same unit: penumbrae that no picture shows, or that 11 bits of a
+/// receiver's place do not.
+constexpr double kMinHalfLength = 1e-5, kMinHalfLengthWithoutHighp = 5e-4;
 
 /// A receiver so far behind all vertices of a piece, in units of its size, needs no clipping:
 /// HS_WEDGE_ALL_NEAR.
@@ -150,7 +151,9 @@ const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
   std::vector<scene::Bounds> bounds;
   for (const DrawItem& caster : frame.casters) bounds.push_back(caster.boundsWorld);
   const glm::dvec3 toAnchor = scene::toAnchor(frame.light, bounds);
-  const scene::LightPlane plane(frame.light, toAnchor, kMinHalfLength * glm::length(toAnchor));
+  const bool highp = frame.capabilities.has(gl::Capability::highp);
+  const scene::LightPlane plane(
+      frame.light, toAnchor, (highp ? kMinHalfLength : kMinHalfLengthWithoutHighp) * glm::length(toAnchor));
   const double farthest = farthestReceiver(frame, plane), reach = sidewaysReach(frame, plane);
   const std::uint64_t key = keyOf(frame, farthest, reach);
   if (volumes.contentKey == key) return &volumes;
