@@ -28,8 +28,11 @@ class ShadowWidth final : public Technique {
         .guarantees =
             "two fetches per receiver whatever the scene, the light's size and the penumbra's width",
         .knownFailures =
-            "casters seen through each other are one silhouette; a caster's shadow on itself is soft only "
-            "where it leaves the silhouette"};
+            "casters seen through each other are one silhouette, also those behind a receiver that casters "
+            "before "
+            "it shadow; a caster's shadow on itself is soft only where it leaves the silhouette; lights "
+            "whose "
+            "farthest caster is over 8 times as far as the nearest go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
