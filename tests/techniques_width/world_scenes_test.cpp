@@ -225,5 +225,27 @@ TEST_F(WorldScenes, SunsAreRightHoweverFar) {
   }
 }
 
+// Looked up, the paper's attenuation is that of each light.
+TEST_F(WorldScenes, TwoUnlikeLightsHaveTheirOwnAttenuation) {
+  const PlateOverGround plate;
+  renderer().load(plate.scene());
+  const std::vector<scene::AreaLight> lights = {lightAbove({-1, 12, 0}, 0.1, 0.1),
+                                                lightAbove({2, 9, 1}, 2.0, 2.0)};
+  Image images[2];
+  for (const bool texture : {false, true}) {
+    renderer().setLights(lights);
+    images[texture] = renderer().render({"shadow-width",
+                                         {{"shadow-width.preset", "paper"},
+                                          {"shadow-width.attenuation", texture ? "texture" : "arithmetic"}}});
+  }
+  for (int light = 0; light < 2; ++light) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < images[0].pixels(); ++i)
+      sum += std::abs(images[0].byte(i, light) - images[1].byte(i, light));
+    // 256 steps of depth and width; with the other light's table the mean is 5.
+    EXPECT_LT(sum / static_cast<double>(images[0].pixels()), 1.0) << light;
+  }
+}
+
 }  // namespace
 }  // namespace halfshadow::test

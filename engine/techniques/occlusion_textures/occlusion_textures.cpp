@@ -95,7 +95,9 @@ class OcclusionTextures final : public Technique {
         .knownFailures =
             "tuned: only what the light's centre sees casts a shadow, and occluders in the receiver's own "
             "slice "
-            "blend with its surface; paper: surfaces across several slices count as independent, and casters "
+            "blend with its surface; lights whose farthest caster is over 8 times as far as the nearest go "
+            "to "
+            "sampled; paper: surfaces across several slices count as independent, and casters "
             "shadow themselves"};
     return info;
   }

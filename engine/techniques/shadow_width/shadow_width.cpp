@@ -3,6 +3,7 @@
 #include "techniques/shadow_width/shadow_width.hpp"
 
 #include <algorithm>
+#include <map>
 
 #include "techniques/core/caster_spread.hpp"
 #include "techniques/shadow_width/attenuation.hpp"
@@ -27,8 +28,11 @@ class ShadowWidth final : public Technique {
         .guarantees =
             "two fetches per receiver whatever the scene, the light's size and the penumbra's width",
         .knownFailures =
-            "casters seen through each other are one silhouette; a caster's shadow on itself is soft only "
-            "where it leaves the silhouette"};
+            "casters seen through each other are one silhouette, also those behind a receiver that casters "
+            "before "
+            "it shadow; a caster's shadow on itself is soft only where it leaves the silhouette; lights "
+            "whose "
+            "farthest caster is over 8 times as far as the nearest go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -109,7 +113,7 @@ class ShadowWidth final : public Technique {
     return frame.settings.choice("shadow-width.preset") == "paper" ? declarePaper(frame)
                                                                    : declareSigned(frame);
   }
-  void contextLost() override { attenuationMap_ = {}; }
+  void contextLost() override { attenuationMaps_.clear(); }
 
  private:
   static Result<ReceiverShading> declareSigned(const LightFrame& frame) {
@@ -154,9 +158,10 @@ class ShadowWidth final : public Technique {
     if (constants.scale == 0.0)
       constants.scale = scaleOfLight(frame, space, range, constants.bias, steps.front().differenceBytes);
     if (frame.settings.choice("shadow-width.attenuation") == "texture") {
-      if (Status s = makeAttenuationMap(frame, constants); !s) return s.error();
+      auto table = attenuationMap(frame, constants);
+      if (!table) return table.error();
       shading.defines.push_back("HS_ATTENUATION_TEXTURE");
-      shading.textures.push_back({.sampler = "u_attenuationMap", .texture = &attenuationMap_});
+      shading.textures.push_back({.sampler = "u_attenuationMap", .texture = *table});
     }
     const glm::vec4 uniform(space.nearDistance / range, constants.scale, 1.0 + constants.bias,
                             space.depthUnit);
@@ -182,24 +187,31 @@ class ShadowWidth final : public Technique {
     return (1.0 + bias) * std::clamp(1.0 / std::max(widthPerDepth, 1e-9), 1.0, 1024.0);
   }
 
-  Status makeAttenuationMap(const LightFrame& frame, const Attenuation& constants) {
-    const bool same = constants.scale == attenuation_.scale && constants.bias == attenuation_.bias;
-    if (attenuationMap_ && same) return {};
-    const std::vector<std::uint8_t> table = attenuationTable(constants);
-    auto made = gl::Texture::create(frame.context,
-                                    {.width = kAttenuationSide,
-                                     .height = kAttenuationSide,
-                                     .format = gl::TextureFormat::luminance8,
-                                     .filter = gl::TextureFilter::linear},
-                                    table.data());
-    if (!made) return made.error();
-    attenuationMap_ = std::move(made).value();
-    attenuation_ = constants;
-    return {};
+  /// Each light has its own: constants follow from its size and place.
+  struct AttenuationMap {
+    gl::Texture texture;
+    Attenuation constants;
+  };
+
+  /// Valid until the context is lost.
+  Result<const gl::Texture*> attenuationMap(const LightFrame& frame, const Attenuation& constants) {
+    AttenuationMap& map = attenuationMaps_[frame.lightIndex];
+    const bool same = constants.scale == map.constants.scale && constants.bias == map.constants.bias;
+    if (!map.texture || !same) {
+      const std::vector<std::uint8_t> table = attenuationTable(constants);
+      auto made = gl::Texture::create(frame.context,
+                                      {.width = kAttenuationSide,
+                                       .height = kAttenuationSide,
+                                       .format = gl::TextureFormat::luminance8,
+                                       .filter = gl::TextureFilter::linear},
+                                      table.data());
+      if (!made) return made.error();
+      map = {std::move(made).value(), constants};
+    }
+    return static_cast<const gl::Texture*>(&map.texture);
   }
 
-  gl::Texture attenuationMap_;
-  Attenuation attenuation_;
+  std::map<int, AttenuationMap> attenuationMaps_;
 };
 }  // namespace
 

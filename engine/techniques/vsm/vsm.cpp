@@ -23,8 +23,11 @@ class Vsm final : public Technique {
         .summary = "mean and variance of depth, blurred once, bound the lit share",
         .guarantees = "never darker than the blurred comparison it bounds",
         .knownFailures =
-            "light bleeds where occluders overlap; with 8-bit moments also wherever caster and receiver are "
-            "close"};
+            "light bleeds where occluders overlap and along the edges at which they meet a receiver; with "
+            "8-bit "
+            "moments also wherever caster and receiver are close; lights whose farthest caster is over 100 "
+            "times "
+            "as far as the nearest go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
