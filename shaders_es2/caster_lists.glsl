@@ -46,7 +46,10 @@ void hs_findList() {
   HS_HIGHP vec4 met = u_eyeLight + along * ray;
   // By no more than half a pixel: what is farther off is a neighbour's fragment, or numbers that cancelled.
   HS_HIGHP vec4 moved = abs(met - position), pixel = abs(along * u_viewport.x * u_rayX);
-  HS_HIGHP float slant = min(length(v_facetPlane) * length(ray) / max(abs(across), HS_SMALL), 8.0);
+  HS_HIGHP float alongHeight =
+      (across - dot(v_facetPlane.xy, ray.xy)) / (abs(ray.w) < HS_SMALL ? HS_SMALL : ray.w);
+  HS_HIGHP float slant = min(
+      length(vec3(v_facetPlane.xy, alongHeight)) * length(ray.xyw) / max(abs(across), HS_SMALL), 8.0);
   if (max(max(moved.x, moved.y), moved.w) < 0.5 * slant * max(max(pixel.x, pixel.y), pixel.w)) position = met;
 #endif
   HS_HIGHP float reciprocal = 1.0 / max(position.w, u_listPlace.x);

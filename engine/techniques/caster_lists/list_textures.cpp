@@ -21,6 +21,8 @@ constexpr float kLargestScale = 255.0f * 255.0f;
 /// Vertices farther from the receivers than the nearest one, as seen in i, by this factor are coded with a
 /// coarser step: what they project to is known to the same share.
 constexpr float kFineReach = 8.0f;
+/// Between steps of t and of i, where vertices are coded with coarser ones.
+constexpr float kUneven = 8.0f;
 
 struct Range {
   glm::vec3 low{1e30f}, high{-1e30f};
@@ -45,18 +47,24 @@ EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
   }
   EncodedLists::Placed placed;
   placed.center = 0.5f * (fine.low + fine.high);
-  glm::vec3 least(0.0f);
+  glm::vec3 farthestOff(0.0f);
   for (const CellRecord& record : records | std::views::filter(isVertex))
-    least = glm::max(least, glm::abs(record.ti - placed.center));
-  least = glm::max(least / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
+    farthestOff = glm::max(farthestOff, glm::abs(record.ti - placed.center));
+  glm::vec3 least = glm::max(farthestOff / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
+  // The scale of a vertex is that of its farthest coordinate: steps of the others must not be much coarser,
+  // or it must not need one.
+  const float along = std::max(least.x, least.y);
+  least.z = std::max(least.z, std::min(along / kUneven, farthestOff.z / 32766.0f));
+  for (int k = 0; k < 2; ++k)
+    least[k] = std::max(least[k], std::min(least.z / kUneven, farthestOff[k] / 32766.0f));
   // The centre must be in reach. That step is what single precision knows of such coordinates.
   least = glm::max(least, glm::abs(placed.center) / (32766.0f * kCenterSteps));
   const auto stepAbove = [](float length) {
     const int exponent = static_cast<int>(std::ceil(std::log2(std::max(length, 1e-36f))));
     return std::exp2(static_cast<float>(std::clamp(exponent, -kExponentBias + 4, kExponentBias - 2)));
   };
-  const float along = stepAbove(std::max(least.x, least.y));
-  placed.step = {along, along, stepAbove(least.z)};
+  const float stepT = stepAbove(std::max(least.x, least.y));
+  placed.step = {stepT, stepT, stepAbove(least.z)};
   placed.center = glm::round(placed.center / (kCenterSteps * placed.step)) * kCenterSteps * placed.step;
   return placed;
 }
