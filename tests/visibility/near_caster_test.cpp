@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Casters beside the light, below the receiver and across the light's plane: what a map seen from the light's centre
-// shows of them must not spoil the shadows of the others.
+// Casters beside the light, below the receiver and across the light's plane: what a map seen from the light's
+// centre shows of them must not spoil the shadows of the others.
 #include <algorithm>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
@@ -26,9 +26,8 @@ class NearCaster : public SharedEngineTest {
     scene.objects.push_back(boxObject({0, 1.8, 0}, {1.1, 0.35, 0.8}));
     scene.objects.push_back(groundPlane(60.0));
     for (const auto& object : others) scene.objects.push_back(object);
-    scene.camera = scene::Camera{.eyeWorld = {-6.5, 9, 1.5},
-                                 .targetWorld = {-0.7, 0, -0.4},
-                                 .verticalFovRadians = glm::radians(34.0)};
+    scene.camera = scene::Camera{
+        .eyeWorld = {-6.5, 9, 1.5}, .targetWorld = {-0.7, 0, -0.4}, .verticalFovRadians = glm::radians(34.0)};
     const auto light = scene::areaLightAimed({3, 12, 2}, {0, 1, 0}, 2.0, 2.0, {0.2, 0.1, 1});
     EXPECT_TRUE(light.ok());
     scene.lights = {*light};
@@ -44,7 +43,8 @@ class NearCaster : public SharedEngineTest {
     for (std::uint32_t i = 0; i < receivers->kind.size(); ++i) {
       if (receivers->kind[i] != reference::kNoReceiver) pixels.push_back(i);
     }
-    const auto truth = reference::tracePixels(tested, light, *receivers, pixels, {.samples = 256, .threads = 2});
+    const auto truth =
+        reference::tracePixels(tested, light, *receivers, pixels, {.samples = 256, .threads = 2});
     EXPECT_TRUE(truth.ok());
     renderer().load(tested);
     renderer().choose({technique});
@@ -60,7 +60,8 @@ class NearCaster : public SharedEngineTest {
       ++count;
     }
     EXPECT_GT(count, 300);
-    return {std::sqrt(sum / std::max(count, 1)), renderer().report().hasSkip("light 0 " + technique, "caster-near-light")};
+    return {std::sqrt(sum / std::max(count, 1)),
+            renderer().report().hasSkip("light 0 " + technique, "caster-near-light")};
   }
 };
 
@@ -118,7 +119,8 @@ TEST_F(NearCaster, LongLightsAreAlikeWhicheverSideIsNamedFirst) {
       tested.lights = {light};
       const double second = judge(tested, technique).rmse;
       std::printf("%-14s 1:%2.0f: %.4f and %.4f\n", technique, 1.0 / share, first, second);
-      // Taps and steps of the map fall differently on the two; a width from the wrong side gave 2 to 3.5 times.
+      // Taps and steps of the map fall differently on the two; a width from the wrong side gave 2 to 3.5
+      // times.
       EXPECT_LE(std::max(first, second), 1.1 * std::min(first, second) + 0.002) << technique << ", " << share;
       EXPECT_LE(first, 0.06) << technique << ", " << share;
     }
