@@ -21,11 +21,11 @@ constexpr double kDepthMargin = 1.0 / 1024;
 // Casters that are smaller seen from the light than this would make the texel size vanish.
 constexpr double kMinTangentExtent = 1e-4;
 
-double stepUp(double value, double unit = 1.0) {
-  return unit * std::exp2(std::ceil(std::log2(value / unit) * kStepsPerOctave) / kStepsPerOctave);
+double stepUp(double value) {
+  return std::exp2(std::ceil(std::log2(value) * kStepsPerOctave) / kStepsPerOctave);
 }
-double stepDown(double value, double unit) {
-  return unit * std::exp2(std::floor(std::log2(value / unit) * kStepsPerOctave) / kStepsPerOctave);
+double stepDown(double value) {
+  return std::exp2(std::floor(std::log2(value) * kStepsPerOctave) / kStepsPerOctave);
 }
 
 struct Interval {
@@ -38,16 +38,15 @@ struct DepthRange {
   double nearDistance, farDistance;
 };
 
-// `nearest` is 0 when a caster crosses the light's plane. Steps are counted in `unit`, a length that scales
-// with the scene and not with what moves in it.
-DepthRange fitDepth(double nearest, double farthest, double minNearShare, double unit) {
+// `nearest` is 0 when a caster crosses the light's plane.
+DepthRange fitDepth(double nearest, double farthest, double minNearShare) {
   const double limit = minNearShare * farthest;
-  double nearDistance = nearest > 0.0 ? stepDown(nearest * (1.0 - kDepthMargin), unit) : 0.0;
+  double nearDistance = nearest > 0.0 ? stepDown(nearest * (1.0 - kDepthMargin)) : 0.0;
   if (nearDistance < limit) {
     // A stepped limit, unless it would cut a caster that the limit itself lets through.
-    nearDistance = std::min(stepUp(limit, unit), std::max(limit, nearest * (1.0 - kDepthMargin)));
+    nearDistance = std::min(stepUp(limit), std::max(limit, nearest * (1.0 - kDepthMargin)));
   }
-  return {nearDistance, stepUp(farthest * (1.0 + kDepthMargin), unit)};
+  return {nearDistance, stepUp(farthest * (1.0 + kDepthMargin))};
 }
 
 // Smallest interval of whole steps that holds `tangents` and the border; the origin is a whole texel.
@@ -150,9 +149,7 @@ LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> cas
     fit.casterNearLight = anyTriangleWithin(pointsLight, glm::dvec3(-fit.halfSize - distance, 0.0),
                                             glm::dvec3(fit.halfSize + distance, distance));
   }
-  const double side = std::max(fit.halfSize.x, fit.halfSize.y);
-  const double unit = side > 0.0 ? side : 1.0;
-  const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare, unit);
+  const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
   fit.nearestCaster = std::max(nearest, depth.nearDistance);

@@ -35,7 +35,9 @@ std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels)
 
 Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
                                        double radiusTexels) {
-  BlockBounds bounds{.radiusTexels = radiusTexels};
+  // Without highp a tap's offset along the receiver's plane is off by up to .01 of the kernel's radius.
+  const double rounding = depth.storage == DepthStorage::packed16 ? 0.02 * radiusTexels : 0.0;
+  BlockBounds bounds{.radiusTexels = radiusTexels + rounding};
   // Small blocks are tight but need a longer reach to cover the kernel; at most 9 x 9 fetches of a small
   // image.
   constexpr int kLongestReach = 4;

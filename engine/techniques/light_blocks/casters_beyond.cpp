@@ -63,7 +63,8 @@ void addSelfReceiverSearch(const LightFrame& frame, ReceiverShading& shading) {
   shading.defines.push_back("HS_SEARCH 5");
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
   for (const DrawItem& receiver : frame.receivers) {
-    if (!receiver.casts && mayHaveCastersBeyond(frame, receiver)) shading.alsoCasting.push_back(receiver.mesh);
+    if (!receiver.casts && mayHaveCastersBeyond(frame, receiver))
+      shading.alsoCasting.push_back(receiver.mesh);
   }
 }
 

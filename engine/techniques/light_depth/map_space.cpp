@@ -42,7 +42,8 @@ MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage) {
   const bool sixteenBits = storage == DepthStorage::texture16 || storage == DepthStorage::packed16;
   // 5e-7: what single-precision interpolation and division of 1 - near/z differ between two rasterisations.
   space.quantum = 1.5 * std::exp2(sixteenBits ? -16.0 : -24.0) + 5e-7;
-  space.nearestCasterDepth = 0.0;
+  // Not where the map begins, which moves in steps: results do not change with the units that a scene is in.
+  space.nearestCasterDepth = 1.0 - fit.nearDistance / fit.nearestCaster;
   space.farthestCasterDepth = 1.0 - fit.nearDistance / fit.farDistance;
 
   const glm::dvec2 extent = fit.tangentHigh - fit.tangentLow;

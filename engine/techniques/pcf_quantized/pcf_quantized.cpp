@@ -108,13 +108,14 @@ class PcfQuantized final : public Technique {
     addBlockerPyramid(shading, *depth, *pyramid);
     addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
 
-    // Bands over 3.5 octaves, from the widest penumbra that this frame can have downwards. A caster close to
-    // the light makes that width huge and rare: then the same bands are spread down to two texels.
+    // Bands evenly apart in octaves from the widest penumbra that this frame can have down to two texels, at
+    // most half an octave apart. A caster close to the light makes that width huge and rare: then all bands
+    // are spread.
     const MapSpace& space = depth->space;
     const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
     const int bands = frame.settings.integer("pcf-quantized.bands");
-    const double octavesApart =
-        widest > 0.4 * space.mapSize ? std::log2(widest / 2.0) / (bands - 1) : 3.5 / (bands - 1);
+    const double evenly = std::log2(widest / 2.0) / (bands - 1);
+    const double octavesApart = widest > 0.4 * space.mapSize ? evenly : std::min(evenly, 0.5);
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, 0.0);
