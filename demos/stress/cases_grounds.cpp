@@ -100,7 +100,7 @@ std::vector<Case> groundCases() {
       {"casting-ground", "the ground casts", Rule::same, castingGrounds},
       {"below", "a caster below the ground", Rule::same, below},
       {"coincident", "two grounds in one plane", Rule::same, coincident},
-      {"apart", "two objects 100 to 30,000 apart on one ground", Rule::same, apart},
+      {"apart", "two objects 100 to 30,000 apart on one ground", Rule::own, apart},
       {"unshadowed", "casters that can shadow nothing in view", Rule::lit, unshadowed},
       {"edge-on", "a triangle whose plane holds the light's centre", Rule::own, edgeOn},
   };

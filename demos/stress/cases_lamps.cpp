@@ -113,7 +113,7 @@ std::vector<Case> lampCases() {
       {"light-plane", "casters across the light's plane", Rule::own, lightPlane},
       {"touching", "a caster that touches the light", Rule::own, touching},
       {"enclosed", "the light inside a closed caster", Rule::dark, enclosed},
-      {"depth-range", "depths from the light, or from the camera, of 1 : 100,000", Rule::same, depthRange},
+      {"depth-range", "depths from the light, or from the camera, of 1 : 100,000", Rule::own, depthRange},
       {"behind-light", "receivers beside and behind the light's plane", Rule::own, behindLight},
   };
 }

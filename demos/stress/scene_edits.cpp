@@ -28,6 +28,7 @@ void placeViewAndLights(SceneDescription& scene, const Placement& placement) {
     light.halfU = turn * light.halfU * placement.scale;
     light.halfV = turn * light.halfV * placement.scale;
     light.emission = turn * light.emission;
+    light.referenceDistance *= placement.scale;
   }
   scene::Camera& camera = *scene.camera;
   camera.eyeWorld = point(matrix, camera.eyeWorld);

@@ -116,7 +116,8 @@ CameraDesc cameraDesc(const scene::Camera& camera) {
 }
 
 LightDesc lightDesc(const scene::AreaLight& light) {
-  LightDesc desc{.intensity = light.intensity};
+  LightDesc desc{.intensity = light.intensity, .referenceDistance = light.referenceDistance};
+  std::copy_n(glm::value_ptr(light.color), 3, desc.color);
   store(light.centerWorld, desc.center);
   store(light.halfU, desc.halfU);
   store(light.halfV, desc.halfV);

@@ -171,6 +171,31 @@ TEST_F(Shaded, BrightnessOwesNothingToOtherObjects) {
   EXPECT_NEAR(corner(far), before, 1);
 }
 
+// Intensity counts fully at the reference distance and falls with the square of the distance, up to four
+// times as much near the light; 0 is the same everywhere.
+TEST_F(Shaded, FallsWithTheSquareOfTheDistance) {
+  scene::SceneDescription scene;
+  scene.objects = {groundPlane(20.0)};
+  scene.camera = cameraAbove(0.0, 0.0, 5.0);
+  const std::size_t middle = static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2;
+  const auto light = [&](double height, double reference) {
+    scene::AreaLight light = lightAbove({0, height, 0}, 0.1, 0.1);
+    light.intensity = 0.3;
+    light.referenceDistance = reference;
+    scene.lights = {light};
+    renderer().load(scene);
+    const Image lit = shaded("none", {light}), dark = shaded("none", {dimmed(light, 0.0)});
+    return linear(lit.byte(middle)) - linear(dark.byte(middle));
+  };
+  const double full = light(10.0, 0.0);
+  ASSERT_GT(full, 0.1);
+  EXPECT_NEAR(light(30.0, 0.0), full, 1.0 / 255.0) << "a sun";
+  EXPECT_NEAR(light(10.0, 10.0), full, 1.0 / 255.0);
+  EXPECT_NEAR(light(20.0, 10.0), full / 4.0, 1.0 / 255.0);
+  EXPECT_NEAR(light(10.0, 15.0), full * 2.25, 2.0 / 255.0);
+  EXPECT_NEAR(light(2.0, 10.0), std::min(full * 4.0, 1.0), 2.0 / 255.0) << "at most four times";
+}
+
 // A light shines to one side of its plane; what lies on the other shows ambient light alone.
 TEST_F(Shaded, NothingIsLitBehindTheLight) {
   scene::SceneDescription scene = PlateOverGround().scene();
