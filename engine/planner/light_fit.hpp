@@ -30,7 +30,6 @@ struct LightFit {
   /// A caster comes nearer to the light than LightFitOptions::nearShare of its longer side: points of the
   /// light see it from such different directions that a view from the centre cannot stand for them.
   bool casterNearLight = false;
-  double nearestCaster = 1.0;  ///< along z, of what the map shows: not before nearDistance
   int mapSize = 1024;
   bool empty = true;  ///< no caster in front of the light
 
