@@ -26,6 +26,7 @@ HS_HIGHP vec2 hs_vertexAt(HS_HIGHP float column, HS_HIGHP float row) {
   return vec2(2.0 * column + 0.5, row + 0.5) * u_cellTexel.zw;
 }
 HS_HIGHP vec3 hs_step = vec3(1.0);  // (t, i) of one step of the list's vertices
+HS_HIGHP vec3 hs_wideStep = vec3(256.0);  // of 256: a step alone may be too small for half precision
 HS_HIGHP float hs_near = 1.0;       // edges are cut where they are so little nearer to the light than the receiver
 
 HS_HIGHP vec2 hs_recordAfter(HS_HIGHP vec2 at) {
@@ -42,16 +43,25 @@ HS_HIGHP vec3 hs_beginList(inout HS_HIGHP vec2 at) {
   HS_HIGHP vec3 value = (high - 128.0) * 256.0 + floor(vec3(first.yw, second.y) * 255.0 + 0.5);
   HS_HIGHP vec2 exponents = floor(second.zw * 255.0 + 0.5) - 128.0;
   hs_step = exp2(exponents.xxy);
+  hs_wideStep = exp2(exponents.xxy + 8.0);
+#ifdef HS_NO_HIGHP
+  hs_near = 0.001;
+#else
   hs_near = 0.25 * hs_step.z;
+#endif
   at = hs_recordAfter(at);
-  return value * (256.0 * hs_step);
+  return value * hs_wideStep;
 }
 // What hs_nextVertex() adds to vertices, for a receiver in (t, i) that leaves its facet in the directions `away`, one for
 // each coordinate, and a list with that centre.
 HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 center, HS_HIGHP vec3 receiver, HS_HIGHP vec3 away) {
   HS_HIGHP vec3 rounding = u_listPlace.w * abs(receiver);
   HS_HIGHP vec3 origin = center - receiver - away * (u_listPlace.z * hs_step + rounding);
+#ifdef HS_NO_HIGHP
+  origin.z -= u_listPlace.y * hs_step.z;
+#else
   origin.z -= u_listPlace.y * hs_step.z + rounding.z;
+#endif
   return origin;
 }
 
@@ -89,7 +99,7 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   HS_HIGHP vec4 first = texture2D(u_cellLists, at);
   HS_HIGHP vec4 second = texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0));
   HS_HIGHP vec3 high = floor(vec3(first.xz, second.x) * 255.0 + 0.5);
-  HS_HIGHP vec3 value = (high - 128.0) * 256.0 + vec3(first.yw, second.y) * 255.0;
+  HS_HIGHP vec3 value = high - 128.0 + vec3(first.yw, second.y) * (255.0 / 256.0);
   HS_HIGHP vec2 bytes = floor(second.zw * 255.0 + 0.5);
   HS_HIGHP float right = step(127.5, bytes.x);
   HS_HIGHP float rest = bytes.x - 128.0 * right;
@@ -111,9 +121,9 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   tags.ends = rest;
   at = hs_recordAfter(at);
 #ifdef HS_BEHIND_FACETS
-  if (behind > 0.5) return hs_behindFacet(value.x);
+  if (behind > 0.5) return hs_behindFacet(256.0 * value.x);
 #endif
-  return value * hs_step * bytes.y * bytes.y + origin;
+  return value * hs_wideStep * bytes.y * bytes.y + origin;
 }
 
 // Where a vertex projects onto the light. Vertices beside or behind the receiver go far away in their direction.

@@ -98,8 +98,10 @@ struct Reach {
 }  // namespace
 
 glm::vec4 listPlace(const LightFrame& frame, double minHeight) {
+  // Half precision has 11 bits.
+  const double rounding = frame.capabilities.has(gl::Capability::highp) ? kPlaceRounding : 1e-3;
   const auto bias = static_cast<float>(frame.settings.real("bias"));
-  return {static_cast<float>(minHeight), 2.0f * bias, bias, bias * static_cast<float>(kPlaceRounding)};
+  return {static_cast<float>(minHeight), 2.0f * bias, bias, bias * static_cast<float>(rounding)};
 }
 
 Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture) {

@@ -13,6 +13,8 @@ namespace {
 /// A point light counts as a square this wide, in units of the distance to the nearest caster's middle. What
 /// single precision makes of a receiver's place is not much less.
 constexpr double kMinHalfLength = 2e-6;
+/// The same for half precision.
+constexpr double kMinHalfLengthOfHalves = 1e-4;
 /// In half sides of the light.
 constexpr double kNearestCut = 1e-3;
 /// Casters that lie within so much of their middle's height have it for the origin of (t, i).
@@ -51,7 +53,9 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
   const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
-  const double minHalf = kMinHalfLength * nearestDistance(frame.casters, frame.light.centerWorld);
+  const double share =
+      frame.capabilities.has(gl::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
+  const double minHalf = share * nearestDistance(frame.casters, frame.light.centerWorld);
   space_ = spaceOf(scene::LightPlane(frame.light, unit, minHalf), frame.casters);
   const scene::LightPlane& plane = space_.plane;
   minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;

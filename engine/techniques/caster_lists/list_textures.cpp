@@ -65,7 +65,13 @@ EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
   };
   const float stepT = stepAbove(std::max(least.x, least.y));
   placed.step = {stepT, stepT, stepAbove(least.z)};
-  placed.center = glm::round(placed.center / (kCenterSteps * placed.step)) * kCenterSteps * placed.step;
+  // With eleven bits, which half precision has too; vertices are counted from there, whatever it is.
+  for (int k = 0; k < 3; ++k) {
+    const float code = std::round(placed.center[k] / (kCenterSteps * placed.step[k]));
+    const float unit =
+        std::exp2(std::max(std::ceil(std::log2(std::max(std::abs(code), 1.0f))) - 11.0f, 0.0f));
+    placed.center[k] = std::round(code / unit) * unit * kCenterSteps * placed.step[k];
+  }
   return placed;
 }
 
