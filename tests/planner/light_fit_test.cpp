@@ -191,6 +191,48 @@ TEST(LightFit, PointLightHasAStableFrame) {
   EXPECT_NEAR(toLight(fit, {0.5, -1, 0.5}).z, 5.0, 1e-12);
 }
 
+// However far a sun is given, its map is the same: directions count, and the angle that it is seen under.
+TEST(LightFit, SunsOfOneDirectionHaveOneMap) {
+  const Points points = boxPoints({0.3, 0.5, -0.2}, {1, 0.5, 2});
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(3, 11, 2));
+  const auto fitFrom = [&](double distance) {
+    const glm::dvec3 center = glm::dvec3(0.3, 0.5, -0.2) + direction * distance;
+    const auto light = scene::areaLightAimed(center, {0.3, 0.5, -0.2}, distance / 6, distance / 6, {0, 0, 1});
+    EXPECT_TRUE(light.ok());
+    return fitLight(*light, points, {});
+  };
+  const LightFit near = fitFrom(1e5);
+  ASSERT_FALSE(near.empty);
+  for (const double distance : {1e6, 1e7, 1e9}) {
+    const LightFit far = fitFrom(distance);
+    EXPECT_NEAR(far.halfSize.x, near.halfSize.x, 1e-6 * near.halfSize.x) << distance;
+    for (const glm::dvec3& point : points) {
+      // A thousandth of a texel: what doubles keep of a place seen from 1e9.
+      EXPECT_LT(glm::length(texelOf(far, point) - texelOf(near, point)), 1e-3) << distance;
+    }
+  }
+}
+
+TEST(LightFit, CastersNearerThanTheLightIsWideAreFound) {
+  const scene::AreaLight light{.halfU = {1, 0, 0}, .halfV = {0, -1, 0}, .emission = {0, 0, -1}};
+  const LightFitOptions options{.pointsAreTriangles = true};
+  const auto sheet = [](double x, double depth) {
+    return Points{{x, -50, -depth}, {x, 50, -depth}, {x + 50, 0, -depth}};
+  };
+  // Two wide: a sheet whose vertices all lie far away passes below it at this depth.
+  EXPECT_TRUE(fitLight(light, sheet(-10, 1.9), options).casterNearLight);
+  EXPECT_FALSE(fitLight(light, sheet(-10, 2.1), options).casterNearLight);
+  // Beside it, from one half side and the light's width on.
+  EXPECT_TRUE(fitLight(light, sheet(2.9, 0.5), options).casterNearLight);
+  EXPECT_FALSE(fitLight(light, sheet(3.1, 0.5), options).casterNearLight);
+  // In its plane and behind it nothing casts.
+  Points plane = sheet(-10, 0.0);
+  plane.insert(plane.end(), {{0, 0, -9}, {1, 0, -9}, {0, 1, -9}});
+  EXPECT_FALSE(fitLight(light, plane, options).casterNearLight);
+  const scene::AreaLight point{.emission = {0, 0, -1}};
+  EXPECT_FALSE(fitLight(point, sheet(-10, 1e-3), options).casterNearLight);
+}
+
 TEST(LightFit, OnePointStillMakesAView) {
   const Points points{{0.3, 0, 0.2}};
   const LightFit fit = fitLight(lightAbove({0, 4, 0}, 1.0), points, {});

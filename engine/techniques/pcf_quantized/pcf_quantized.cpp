@@ -29,7 +29,7 @@ class PcfQuantized final : public Technique {
         .id = "pcf-quantized",
         .paper = "Evans, Agenjo, Blat 2014, section 4.4; bands in reciprocal depth: Halfshadow",
         .summary = "few kernel sizes, chosen per pixel by the quantised width of the penumbra",
-        .guarantees = "regions without casters cost two fetches",
+        .guarantees = "regions without casters cost at most two fetches",
         .knownFailures =
             "a visible step where bands meet; preset=paper: corners and inner edges pick the wrong band"};
     return info;

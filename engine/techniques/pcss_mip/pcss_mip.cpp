@@ -14,11 +14,10 @@ class PcssMip final : public Technique {
         .id = "pcss-mip",
         .paper = "Fernando 2005, with the blocker search replaced (Halfshadow)",
         .summary =
-            "blocker search by two trilinear fetches of an occupancy pyramid, then a filter as wide as the "
+            "blocker search between two levels of an occupancy pyramid, then a filter as wide as the "
             "penumbra",
-        .guarantees = "regions without casters cost two fetches",
-        .knownFailures =
-            "on receivers that are in the map themselves the mean blocker includes their own surface"};
+        .guarantees = "regions without casters cost at most two fetches",
+        .knownFailures = "occluders at several heights share one width; receivers that cast search by taps"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
