@@ -113,28 +113,6 @@ bool anyTriangleWithin(const std::vector<glm::dvec3>& points, const glm::dvec3& 
   return false;
 }
 
-// A light farther from the casters than this many of their radii is seen as from there. Beyond it their
-// depths differ in the last bits of a map only; from there a shadow that falls r radii behind its caster is
-// larger by r / 30000, far less than its penumbra.
-constexpr double kFarthestLight = 3e4;
-
-/// The light, brought nearer along its directions when it is a sun: smaller by as much.
-scene::AreaLight broughtNearer(const scene::AreaLight& light, std::span<const glm::dvec3> pointsWorld) {
-  scene::Bounds bounds;
-  for (const glm::dvec3& point : pointsWorld) bounds.include(point);
-  if (bounds.empty()) return light;
-  const glm::dvec3 center = bounds.center();
-  const double distance = glm::length(light.centerWorld - center);
-  const double farthest = kFarthestLight * bounds.radius();
-  if (!(farthest > 0.0) || distance <= farthest) return light;
-  scene::AreaLight nearer = light;
-  const double scale = farthest / distance;
-  nearer.centerWorld = center + (light.centerWorld - center) * scale;
-  nearer.halfU *= scale;
-  nearer.halfV *= scale;
-  return nearer;
-}
-
 }  // namespace
 
 glm::dmat4 LightFit::clipFromLight() const {
@@ -155,7 +133,7 @@ double LightFit::storedDepth(double z) const {
 
 LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
                   const LightFitOptions& options) {
-  const LightSpace space = lightSpace(broughtNearer(light, casterPointsWorld));
+  const LightSpace space = lightSpace(light);
   LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
   std::vector<glm::dvec3> pointsLight;
   pointsLight.reserve(casterPointsWorld.size());

@@ -191,28 +191,6 @@ TEST(LightFit, PointLightHasAStableFrame) {
   EXPECT_NEAR(toLight(fit, {0.5, -1, 0.5}).z, 5.0, 1e-12);
 }
 
-// However far a sun is given, its map is the same: directions count, and the angle that it is seen under.
-TEST(LightFit, SunsOfOneDirectionHaveOneMap) {
-  const Points points = boxPoints({0.3, 0.5, -0.2}, {1, 0.5, 2});
-  const glm::dvec3 direction = glm::normalize(glm::dvec3(3, 11, 2));
-  const auto fitFrom = [&](double distance) {
-    const glm::dvec3 center = glm::dvec3(0.3, 0.5, -0.2) + direction * distance;
-    const auto light = scene::areaLightAimed(center, {0.3, 0.5, -0.2}, distance / 6, distance / 6, {0, 0, 1});
-    EXPECT_TRUE(light.ok());
-    return fitLight(*light, points, {});
-  };
-  const LightFit near = fitFrom(1e5);
-  ASSERT_FALSE(near.empty);
-  for (const double distance : {1e6, 1e7, 1e9}) {
-    const LightFit far = fitFrom(distance);
-    EXPECT_NEAR(far.halfSize.x, near.halfSize.x, 1e-6 * near.halfSize.x) << distance;
-    for (const glm::dvec3& point : points) {
-      // A thousandth of a texel: what doubles keep of a place seen from 1e9.
-      EXPECT_LT(glm::length(texelOf(far, point) - texelOf(near, point)), 1e-3) << distance;
-    }
-  }
-}
-
 TEST(LightFit, CastersNearerThanTheLightIsWideAreFound) {
   const scene::AreaLight light{.halfU = {1, 0, 0}, .halfV = {0, -1, 0}, .emission = {0, 0, -1}};
   const LightFitOptions options{.pointsAreTriangles = true};
