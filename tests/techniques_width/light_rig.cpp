@@ -47,6 +47,7 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
                                                                       .casterPointsWorld = points_,
                                                                       .receiverFarDistance = 1.3 * farthest,
                                                                       .casters = casters_,
+                                                                      .groups = groups_,
                                                                       .contentKey = 1,
                                                                       .sceneKey = 1});
 }

@@ -37,6 +37,7 @@ class LightRig {
   std::vector<techniques::GpuMesh> meshes_;
   std::vector<techniques::DrawItem> casters_;
   std::vector<glm::dvec3> points_;
+  scene::CasterGroups groups_;
   gl::Encoder encoder_;
   std::unique_ptr<framegraph::Executor> executor_;
   std::unique_ptr<techniques::LightFrame> frame_;

@@ -103,6 +103,12 @@ Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh&
     if (Status s = refresh(context, gpu.texcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s)
       return s.error();
   }
+  gpu.shadedByFacets_ = mesh.normals.empty() && needsFacetStream(context.capabilities());
+  if (gpu.shadedByFacets_ && !mesh.texcoords.empty()) {
+    const auto texcoords = gathered(mesh.texcoords, mesh.indices);
+    if (Status s = refresh(context, gpu.facetTexcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s)
+      return s.error();
+  }
   const bool shortIndices =
       std::ranges::all_of(gpu.gpuIndices_, [](std::uint32_t i) { return i < kShortIndexVertices; });
   Status indices;
@@ -130,11 +136,13 @@ Status GpuMesh::update(gl::Context& context, const scene::TriangleMesh& mesh) {
 void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams streams) const {
   using gl::AttributeBinding;
   using gl::VertexAttribute;
-  if (streams == Streams::facet && facet_) {
+  if ((streams == Streams::facet && facet_) || (streams == Streams::shading && shadedByFacets_)) {
     const AttributeBinding bindings[] = {
         {VertexAttribute::position, &facet_, 3, gl::AttributeType::float32, 24, 0},
-        {VertexAttribute::normal, &facet_, 3, gl::AttributeType::float32, 24, 12}};
-    encoder.draw(state, {.attributes = bindings, .count = facetVertexCount_});
+        {VertexAttribute::normal, &facet_, 3, gl::AttributeType::float32, 24, 12},
+        {VertexAttribute::texcoord, &facetTexcoords_, 2, gl::AttributeType::float32, 8, 0}};
+    const bool textured = streams == Streams::shading && facetTexcoords_;
+    encoder.draw(state, {.attributes = std::span(bindings, textured ? 3 : 2), .count = facetVertexCount_});
     return;
   }
   for (const Range& range : ranges_) {
@@ -159,7 +167,7 @@ void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams str
 
 std::uint64_t GpuMesh::memoryBytes() const {
   return positions_.byteCount() + indices_.byteCount() + normals_.byteCount() + texcoords_.byteCount() +
-         facet_.byteCount();
+         facet_.byteCount() + facetTexcoords_.byteCount();
 }
 
 }  // namespace halfshadow::techniques

@@ -19,7 +19,8 @@ bool needsFacetStream(const gl::Capabilities& capabilities);
 /// source has them (read by shading only); and a facet stream (position and facet normal, 24 bytes, three
 /// vertices a triangle), since the receiver-plane bias needs the exact facet plane: for every mesh where
 /// derivatives or highp are missing, elsewhere for meshes of few triangles, whose fragments then need no
-/// derivatives. Meshes of more than 65,536 vertices are split into ranges where 32-bit indices are missing.
+/// derivatives. Meshes without normals are shaded by it where derivatives are missing. Meshes of more than
+/// 65,536 vertices are split into ranges where 32-bit indices are missing.
 class GpuMesh {
  public:
   enum class Streams { positions, facet, shading };
@@ -40,12 +41,13 @@ class GpuMesh {
   void split(const scene::TriangleMesh& mesh, bool wideIndices);
   Status upload(gl::Context& context, const scene::TriangleMesh& mesh);
 
-  gl::Buffer positions_, indices_, normals_, texcoords_, facet_;
+  gl::Buffer positions_, indices_, normals_, texcoords_, facet_, facetTexcoords_;
   gl::IndexType indexType_ = gl::IndexType::uint16;
   std::vector<Range> ranges_;
   std::vector<std::uint32_t> sourceVertex_;  ///< of each GPU vertex
   std::vector<std::uint32_t> gpuIndices_;    ///< relative to the range's first vertex
   std::size_t facetVertexCount_ = 0;
+  bool shadedByFacets_ = false;
 };
 
 }  // namespace halfshadow::techniques

@@ -174,8 +174,13 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   if (target.additive) {
     state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
   }
+  // Steps of a depth buffer: too few to bring anything forward that is not in the same place.
+  constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;
   const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
+    if (target.depthsApart) {
+      state.polygonOffset = glm::vec2(0.0f, static_cast<float>((&item - items.data()) % kMostSteps));
+    }
     const ReceiverKind kind = kindOf(shading, item, inputs != nullptr, derivatives);
     gl::Program* program = programs.of(kind).*phase;
     if (program != current) {

@@ -53,6 +53,9 @@ struct ReceiverTarget {
   std::array<bool, 4> colorMask{true, true, true, true};
   bool depthIsComplete = false;  ///< an earlier light of the pass has drawn all depths
   bool additive = false;         ///< blend ONE, ONE
+  /// Receivers in the same place get depths a step apart, by their place in the list: only one of them is
+  /// found again where sums over pixels must not count both. For all draws of a depth buffer or none.
+  bool depthsApart = false;
 };
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.

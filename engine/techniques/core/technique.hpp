@@ -130,7 +130,8 @@ struct ReceiverShading {
   std::function<void(gl::Program&, gl::Context&)> setUniforms;
   /// Uniforms that differ from receiver to receiver; may be empty.
   std::function<void(gl::Program&, gl::Context&, const DrawItem&)> setItemUniforms;
-  glm::dmat4 mapFromWorld{1.0};  ///< world -> (s·z, t·z, d·z, z); screen-space techniques use z alone, or none
+  glm::dmat4 mapFromWorld{
+      1.0};  ///< world -> (s·z, t·z, d·z, z); screen-space techniques use z alone, or none
   FilterSkip skip = FilterSkip::none;
   bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.

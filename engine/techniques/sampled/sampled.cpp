@@ -96,7 +96,7 @@ class Sampled final : public Technique {
                    {.resource = depthTest, .point = framegraph::AttachmentPoint::depth, .initial = initial}};
     if (index > 0)
       pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
-    ReceiverTarget target{.depthIsComplete = true, .additive = true};
+    ReceiverTarget target{.depthIsComplete = true, .additive = true, .depthsApart = true};
     target.colorMask.fill(false);
     target.colorMask[static_cast<std::size_t>(index / kSamplesPerChannel)] = true;
     pass.execute = [shading, programs = *programs, &view = frame.view, target, first = index == 0,
@@ -104,7 +104,7 @@ class Sampled final : public Technique {
                        framegraph::PassContext& context) {
       // Depth first: what is covered later must not have been counted.
       if (first) {
-        const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}};
+        const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}, .depthsApart = true};
         drawReceivers(context, shading, programs, view, items, nullptr, depthOnly);
       }
       drawReceivers(context, shading, programs, view, items, nullptr, target);
