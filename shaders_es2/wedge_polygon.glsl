@@ -20,7 +20,7 @@
 #if !defined(HS_NO_HIGHP)
 #define HS_WEDGE_NEAR 1e-4
 #elif defined(HS_WEDGE_PROJECTED)
-#define HS_WEDGE_NEAR 5e-4
+#define HS_WEDGE_NEAR 4e-3
 #else
 #define HS_WEDGE_NEAR 2e-3
 #endif

@@ -39,6 +39,9 @@ struct ReceiverImage {
 Result<ReceiverImage> traceReceivers(const scene::SceneDescription& scene, const scene::Camera& camera,
                                      const scene::AreaLight& light, int width, int height);
 
+/// Counts up when the tracer answers the same question otherwise: part of the name of whatever keeps a truth.
+inline constexpr int kTracerVersion = 2;
+
 struct ReferenceOptions {
   int samples = 4096;      ///< light points per pixel, >= 1; rounded up, see tracedSamples
   std::uint32_t seed = 1;  ///< another seed gives independent noise

@@ -19,11 +19,12 @@ namespace {
 struct FalseShadow {
   int pixels = 0, darkest = 255;
 };
-FalseShadow falseShadow(const Truth& truth, const Image& image) {
+/// `allowed`: steps of the image below lit that are none.
+FalseShadow falseShadow(const Truth& truth, const Image& image, int allowed = 0) {
   FalseShadow found;
   for (std::size_t i = 0; i < image.pixels(); ++i) {
     if (truth.kind[i] != reference::kCasterReceiver || !truth.interior[i] || !truth.facesWholeLight[i] ||
-        truth.visibility[i] < 1.0f || image.byte(i) == 255)
+        truth.visibility[i] < 1.0f || image.byte(i) >= 255 - allowed)
       continue;
     ++found.pixels;
     found.darkest = std::min<int>(found.darkest, image.byte(i));
@@ -48,7 +49,9 @@ TEST_P(Acne, NoLitCasterPixelIsShadowedAtBiasOne) {
   const Truth& truth = truthOf(GetParam());
   for (const Configuration& configuration : configurations(renderer().engine())) {
     const Image image = renderer().render(configuration);
-    const FalseShadow wrong = falseShadow(truth, image);
+    // Occlusion textures sum up shares that are stored in 8 bits: they may be one step off.
+    const FalseShadow wrong =
+        falseShadow(truth, image, configuration.technique == "occlusion-textures" ? 1 : 0);
     EXPECT_EQ(wrong.pixels, 0) << configuration.text() << ": the darkest is " << wrong.darkest << " of 255";
     if (wrong.pixels > 0) {
       std::printf("%s\n",

@@ -65,7 +65,8 @@ fs::path truthPath(const std::string& name, const scene::SceneDescription& scene
   char hash[17];
   std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(contentHash(scene)));
   return fs::path(HALFSHADOW_TEST_OUTPUT_DIR) / "truth" /
-         (fileName(name) + "_" + std::to_string(kTruthSamples) + "_" + hash + ".bin");
+         (fileName(name) + "_" + std::to_string(kTruthSamples) + "_v" +
+          std::to_string(reference::kTracerVersion) + "_" + hash + ".bin");
 }
 
 std::vector<float> readTruth(const fs::path& path) {

@@ -110,6 +110,7 @@ TEST(CellLists, CastersThatAreApartCoverNoPointTwice) {
           wreath(random, 5 + trial % 9,
                  {2.4f * unit(random) - 1.2f, 2.4f * unit(random) - 1.2f, 1.4f + unit(random)},
                  0.1f + 0.2f * unit(random), 0.2f));
+      loops.casters.back().deepest = loops.casters.back().low.z;
     }
     ReceiverTiles tiles{.columns = 1, .rows = 1};
     TangentBox box;

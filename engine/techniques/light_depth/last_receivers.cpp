@@ -59,10 +59,14 @@ LastReceivers lastReceivers(const LightFrame& frame) {
   }
   for (std::size_t i = 0; i < frame.casters.size(); ++i) {
     const DrawItem& caster = frame.casters[i];
-    const bool ground = caster.receives && isLarge(seen[i], frame.fit) &&
-                        (!caster.closed || std::ranges::any_of(seen, [&](const SeenBox& other) {
-                          return isBefore(other, seen[i]);
-                        }));
+    // From within, the faces that face the light are a roof, behind which others receive.
+    const bool seenFromWithin =
+        hiddenFaces(caster, frame.view.eyeWorld, frame.view.nearReach) == gl::Cull::none;
+    const bool ground =
+        caster.receives && isLarge(seen[i], frame.fit) &&
+        (!caster.closed || (!seenFromWithin && std::ranges::any_of(seen, [&](const SeenBox& other) {
+          return isBefore(other, seen[i]);
+        })));
     (ground ? last.drawn : last.infinite).push_back(caster);
     last.empty = last.empty && !ground;
   }

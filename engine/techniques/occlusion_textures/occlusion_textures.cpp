@@ -15,7 +15,7 @@ namespace {
 constexpr int kMostBoxes = 8;
 /// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
 /// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
-constexpr double kOwnSurfaceBias = 0.02;
+constexpr double kOwnSurfaceBias = 0.024;
 
 /// Farthest over nearest caster: beyond, slices are thick against what lies in them, and casters beside the
 /// light leave the others too little of the map.
