@@ -10,12 +10,6 @@
 
 namespace halfshadow::stress {
 namespace {
-std::string numberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 std::vector<Variant> sizes(std::uint64_t) {
   std::vector<Variant> all;
   for (const double half : {0.0, 1e-4, 1e-2, 0.1, 3.0, 6.0})

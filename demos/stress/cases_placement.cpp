@@ -8,12 +8,6 @@
 
 namespace halfshadow::stress {
 namespace {
-std::string numberText(double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, "%g", value);
-  return text;
-}
-
 std::vector<Variant> scales(std::uint64_t) {
   std::vector<Variant> all;
   for (const double scale : {1e-25, 1e-12, 1e-4, 37.0, 1e5, 1e14, 1e25})

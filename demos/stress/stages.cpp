@@ -3,6 +3,7 @@
 #include "stress/stages.hpp"
 
 #include <cassert>
+#include <cstdio>
 #include <utility>
 
 #include "scenes/scene_source.hpp"
@@ -46,6 +47,12 @@ scene::SceneObject floorObject(double width) {
   scene::SceneObject floor = scenes::casterOf("ground", scenes::planeShape({0, 0, 0}, width));
   floor.casts = false;
   return floor;
+}
+
+std::string numberText(double value) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  return text;
 }
 
 std::vector<Variant> baseVariants(std::uint64_t) {

@@ -4,6 +4,8 @@
 /// The scenes that cases start from, and the lists of cases (internal to demos/stress).
 #pragma once
 
+#include <string>
+
 #include "stress/cases.hpp"
 #include "stress/scene_edits.hpp"
 
@@ -20,6 +22,9 @@ SceneDescription stage(std::vector<scene::SceneObject> objects, const scene::Are
 scene::SceneObject boxObject(const std::string& name, const glm::dvec3& center, const glm::dvec3& half);
 /// Casts nothing.
 scene::SceneObject floorObject(double width);
+
+/// As it stands in the names of variants: "1e-05", "0.3".
+std::string numberText(double value);
 
 std::vector<Variant> baseVariants(std::uint64_t seed);
 std::vector<Case> placementCases();
