@@ -43,7 +43,7 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
   }
   gl::ContextOptions options;
   for (std::size_t i = 0; i < desc.forcedOffCount; ++i) {
-    auto capability = gl::capabilityFromName(desc.forcedOff[i]);
+    auto capability = device::capabilityFromName(desc.forcedOff[i]);
     if (!capability) {
       outcome = createFailed(capability.error());
       return nullptr;

@@ -5,6 +5,7 @@
 
 #include "api/engine_state.hpp"
 #include "api/receiver_reach.hpp"
+#include "base/keys.hpp"
 #include "planner/light_reach.hpp"
 
 namespace halfshadow {
@@ -22,7 +23,7 @@ scene::Camera toCamera(const CameraDesc& desc) {
           .farDistance = desc.farDistance};
 }
 
-Status checkTarget(const TargetDesc& target, const gl::Limits& limits) {
+Status checkTarget(const TargetDesc& target, const device::Limits& limits) {
   const int limit = std::min(limits.textureSize, limits.renderbufferSize);
   if (target.width <= 0 || target.height <= 0) {
     return Error{ErrorCode::invalidArgument, "the target's size is " + std::to_string(target.width) + "x" +
@@ -165,7 +166,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       .receivers = frame.receivers,
       .shadowlessReceivers = target.shadowlessReceivers,
       .contentKey = plan.contentKey,
-      .sceneKey = planner::combineKeys(plan.contentKey, sceneRevision),
+      .sceneKey = combineKeys(plan.contentKey, sceneRevision),
       .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
   if (const auto standIn = used->standIn(lightFrame)) {
     const bool hostEvaluates = desc.output == Output::lightsOnly;
@@ -292,7 +293,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
                        .mesh = &object.mesh,
                        .support = &object.support(),
                        .worldFromObject = object.worldFromObject});
-    sceneRevision = planner::combineKeys(sceneRevision, object.revision);
+    sceneRevision = combineKeys(sceneRevision, object.revision);
   }
   const planner::FramePlan framePlan = planner.plan({.objects = planned,
                                                      .camera = &camera,

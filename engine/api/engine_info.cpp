@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "api/engine_state.hpp"
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow {
 
@@ -62,10 +62,10 @@ void Engine::State::fillReport(const framegraph::Plan& plan, const planner::Fram
 }
 
 DriverRecord Engine::driver() const {
-  const gl::Capabilities& capabilities = state_->context->capabilities();
+  const device::Capabilities& capabilities = state_->context->capabilities();
   const char* rounding = "other";
-  if (capabilities.probes.byteRounding == gl::ByteRounding::nearest) rounding = "nearest";
-  if (capabilities.probes.byteRounding == gl::ByteRounding::truncate) rounding = "truncate";
+  if (capabilities.probes.byteRounding == device::ByteRounding::nearest) rounding = "nearest";
+  if (capabilities.probes.byteRounding == device::ByteRounding::truncate) rounding = "truncate";
   return {.vendor = capabilities.driver.vendor.c_str(),
           .renderer = capabilities.driver.renderer.c_str(),
           .version = capabilities.driver.version.c_str(),
@@ -85,15 +85,15 @@ DriverRecord Engine::driver() const {
 }
 
 std::size_t Engine::capabilityCount() const {
-  return gl::kCapabilityCount;
+  return device::kCapabilityCount;
 }
 
 CapabilityRecord Engine::capability(std::size_t index) const {
-  const auto which = static_cast<gl::Capability>(index);
-  const gl::CapabilityState& state = state_->context->capabilities().state(which);
-  return {.name = gl::capabilityName(which).data(),
-          .text = gl::capabilityText(which).data(),
-          .available = state.outcome == gl::ProbeOutcome::available,
+  const auto which = static_cast<device::Capability>(index);
+  const device::CapabilityState& state = state_->context->capabilities().state(which);
+  return {.name = device::capabilityName(which).data(),
+          .text = device::capabilityText(which).data(),
+          .available = state.outcome == device::ProbeOutcome::available,
           .reason = state.reason.c_str()};
 }
 

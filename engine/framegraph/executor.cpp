@@ -249,7 +249,7 @@ Result<std::vector<PassReport>> Executor::run(const Graph& graph, const Plan& pl
   if (timing == PassTiming::perPass && !state.timer) state.timer.emplace(state.context);
   encoder.beginFrame();
 
-  const bool canDiscard = state.context.capabilities().has(gl::Capability::discard);
+  const bool canDiscard = state.context.capabilities().has(device::Capability::discard);
   std::vector<PassReport> reports;
   for (std::size_t i = 0; i < plan.passes.size(); ++i) {
     PassReport& report = reports.emplace_back(describe(graph, plan.passes[i], canDiscard));

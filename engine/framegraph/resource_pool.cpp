@@ -30,9 +30,9 @@ gl::TextureFilter filterOf(Filter filter) {
   return gl::TextureFilter::nearest;
 }
 
-Error missing(const ResourceDesc& desc, gl::Capability capability, ErrorCode code) {
+Error missing(const ResourceDesc& desc, device::Capability capability, ErrorCode code) {
   return Error{code, "resource '" + desc.name + "' needs the capability '" +
-                         std::string(gl::capabilityName(capability)) +
+                         std::string(device::capabilityName(capability)) +
                          "', which this driver lacks; declare another format or storage"};
 }
 
@@ -44,16 +44,16 @@ void ResourcePool::beginRun() {
 }
 
 Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& desc) {
-  const gl::Capabilities& capabilities = context_.capabilities();
+  const device::Capabilities& capabilities = context_.capabilities();
   const bool isTexture = desc.storage == Storage::texture;
   const bool hasDepth = desc.format != Format::rgba8 && desc.format != Format::stencil8;
-  if (isTexture && hasDepth && !capabilities.has(gl::Capability::depthTexture)) {
-    return missing(desc, gl::Capability::depthTexture, ErrorCode::internal);
+  if (isTexture && hasDepth && !capabilities.has(device::Capability::depthTexture)) {
+    return missing(desc, device::Capability::depthTexture, ErrorCode::internal);
   }
-  if (desc.format == Format::depth24Stencil8 && !capabilities.has(gl::Capability::packedDepthStencil)) {
-    return missing(desc, gl::Capability::packedDepthStencil, ErrorCode::capabilityMissing);
+  if (desc.format == Format::depth24Stencil8 && !capabilities.has(device::Capability::packedDepthStencil)) {
+    return missing(desc, device::Capability::packedDepthStencil, ErrorCode::capabilityMissing);
   }
-  const bool has24 = capabilities.has(gl::Capability::depth24);
+  const bool has24 = capabilities.has(device::Capability::depth24);
   gl::TextureFormat textureFormat = gl::TextureFormat::rgba8;
   gl::RenderbufferFormat renderbufferFormat = gl::RenderbufferFormat::depth16;
   switch (desc.format) {

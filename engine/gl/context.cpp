@@ -22,8 +22,8 @@ int integerOf(const Functions& gl, GLenum name, int fallback) {
   return value;
 }
 
-Limits readLimits(const Functions& gl) {
-  Limits limits;
+device::Limits readLimits(const Functions& gl) {
+  device::Limits limits;
   limits.textureSize = integerOf(gl, GL_MAX_TEXTURE_SIZE, limits.textureSize);
   limits.renderbufferSize = integerOf(gl, GL_MAX_RENDERBUFFER_SIZE, limits.renderbufferSize);
   limits.varyingVectors = integerOf(gl, GL_MAX_VARYING_VECTORS, limits.varyingVectors);
@@ -74,7 +74,7 @@ Result<std::unique_ptr<Context>> Context::create(const GetProcAddress& getProcAd
                      "; give the loader of a current OpenGL ES 2.0 context."};
   }
   const Functions& gl = context->functions_;
-  Capabilities& capabilities = context->capabilities_;
+  device::Capabilities& capabilities = context->capabilities_;
   capabilities.driver = {stringOf(gl, GL_VENDOR), stringOf(gl, GL_RENDERER), stringOf(gl, GL_VERSION),
                          stringOf(gl, GL_SHADING_LANGUAGE_VERSION)};
   if (capabilities.driver.version.empty()) {

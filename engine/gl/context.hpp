@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
-#include "gl/capabilities.hpp"
+#include "device/capabilities.hpp"
 #include "gl/functions.hpp"
 
 namespace halfshadow::gl {
@@ -19,7 +19,7 @@ namespace halfshadow::gl {
 using GetProcAddress = std::function<void*(const char* name)>;
 
 struct ContextOptions {
-  std::vector<Capability> forcedOff;  ///< treated as absent, for testing fallbacks
+  std::vector<device::Capability> forcedOff;  ///< treated as absent, for testing fallbacks
 };
 
 /// Owns no context: the host's is current on the calling thread for every call, here and in all objects
@@ -35,7 +35,7 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const Functions& functions() const { return functions_; }
-  const Capabilities& capabilities() const { return capabilities_; }
+  const device::Capabilities& capabilities() const { return capabilities_; }
 
   /// Objects made and not yet destroyed, for leak tests.
   struct LiveObjects {
@@ -66,7 +66,7 @@ class Context {
  private:
   Context() = default;
   Functions functions_;
-  Capabilities capabilities_;
+  device::Capabilities capabilities_;
   LiveObjects liveObjects_;
   Uploads uploads_;
   std::uint64_t bindingRevision_ = 0;

@@ -219,7 +219,7 @@ void Encoder::setViewport(const Rect& viewport) {
 
 void Encoder::endPass(const PassEnd& end) {
   const Framebuffer* framebuffer = std::exchange(cache_->pass, nullptr);
-  if (context_.lost() || !framebuffer || !context_.capabilities().has(Capability::discard)) return;
+  if (context_.lost() || !framebuffer || !context_.capabilities().has(device::Capability::discard)) return;
   const bool isDefault = framebuffer->name() == 0;  // whose attachments have other names
   std::array<GLenum, 3> attachments{};
   GLsizei count = 0;

@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 
+#include "base/rect.hpp"
 #include "gl/objects.hpp"
 #include "gl/program.hpp"
 #include "gl/timers.hpp"
@@ -52,10 +53,7 @@ struct StencilState {
   std::uint32_t readMask = 0xff, writeMask = 0xff;
   StencilFace front, back;
 };
-struct Rect {
-  int x = 0, y = 0, width = 0, height = 0;
-  bool operator==(const Rect&) const = default;
-};
+using halfshadow::Rect;
 struct DrawState {
   DepthState depth;
   Cull cull = Cull::none;

@@ -84,12 +84,12 @@ int measureVaryingMantissaBits(ProbeBench& bench, std::string_view precision) {
 }
 
 /// Two ramps a quarter step above and below each byte value tell nearest from truncation.
-ByteRounding measureByteRounding(ProbeBench& bench, std::string_view precision) {
+device::ByteRounding measureByteRounding(ProbeBench& bench, std::string_view precision) {
   Result<Program> program =
       bench.program(precisionLine(precision) +
                     "uniform float u_shift;\n"
                     "void main() { gl_FragColor = vec4((floor(gl_FragCoord.x) + u_shift) / 255.0); }\n");
-  if (!program) return ByteRounding::other;
+  if (!program) return device::ByteRounding::other;
   const auto ramp = [&](float shift) {
     bench.encoder().useProgram(*program);
     program->set(bench.context(), "u_shift", shift);
@@ -106,9 +106,9 @@ ByteRounding measureByteRounding(ProbeBench& bench, std::string_view precision) 
     highFloors = highFloors && high[at] == k;
     highRises = highRises && high[at] == k + 1;
   }
-  if (lowFloors && highRises) return ByteRounding::nearest;
-  if (lowFloors && highFloors) return ByteRounding::truncate;
-  return ByteRounding::other;
+  if (lowFloors && highRises) return device::ByteRounding::nearest;
+  if (lowFloors && highFloors) return device::ByteRounding::truncate;
+  return device::ByteRounding::other;
 }
 
 }  // namespace halfshadow::gl

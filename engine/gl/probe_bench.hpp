@@ -55,7 +55,7 @@ std::string pixelText(const ProbeBench::Pixel& pixel);
 // probe_arithmetic.cpp
 int measureMantissaBits(ProbeBench& bench, std::string_view precision);
 int measureVaryingMantissaBits(ProbeBench& bench, std::string_view precision);
-ByteRounding measureByteRounding(ProbeBench& bench, std::string_view precision);
+device::ByteRounding measureByteRounding(ProbeBench& bench, std::string_view precision);
 
 // probe_features.cpp
 ProbeFailure probeDepthTexture(ProbeBench& bench);

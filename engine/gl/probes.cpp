@@ -15,7 +15,8 @@ constexpr int kMinHighpMantissaBits = 16;
 
 class Prober {
  public:
-  Prober(ProbeBench& bench, Capabilities& capabilities) : bench_(bench), capabilities_(capabilities) {}
+  Prober(ProbeBench& bench, device::Capabilities& capabilities)
+      : bench_(bench), capabilities_(capabilities) {}
 
   /// The first of `extensions` that the driver lists, or empty.
   std::string advertised(std::initializer_list<const char*> extensions) const {
@@ -26,97 +27,100 @@ class Prober {
     return {};
   }
 
-  CapabilityState& state(Capability capability) {
+  device::CapabilityState& state(device::Capability capability) {
     return capabilities_.states[static_cast<std::size_t>(capability)];
   }
 
   /// Runs `probe` when one of the extensions is listed and notes the outcome.
-  void decide(Capability capability, std::initializer_list<const char*> extensions,
+  void decide(device::Capability capability, std::initializer_list<const char*> extensions,
               const std::function<ProbeFailure()>& probe) {
     const std::string found = advertised(extensions);
     if (found.empty()) {
-      state(capability) = {ProbeOutcome::notAdvertised, std::string(*extensions.begin()) + " is not listed"};
+      state(capability) = {device::ProbeOutcome::notAdvertised,
+                           std::string(*extensions.begin()) + " is not listed"};
       return;
     }
     note(capability, found, probe());
   }
 
-  void note(Capability capability, const std::string& what, const ProbeFailure& failure) {
+  void note(device::Capability capability, const std::string& what, const ProbeFailure& failure) {
     // A probe that raised an error failed, whatever it read back.
     const Status errors = bench_.context().checkErrors("probe");
     if (!failure.empty()) {
-      state(capability) = {ProbeOutcome::probeFailed, failure};
+      state(capability) = {device::ProbeOutcome::probeFailed, failure};
     } else if (!errors) {
-      state(capability) = {ProbeOutcome::probeFailed, errors.error().message};
+      state(capability) = {device::ProbeOutcome::probeFailed, errors.error().message};
     } else {
-      state(capability) = {ProbeOutcome::available, what + ", verified by rendering"};
+      state(capability) = {device::ProbeOutcome::available, what + ", verified by rendering"};
     }
   }
 
  private:
   ProbeBench& bench_;
-  Capabilities& capabilities_;
+  device::Capabilities& capabilities_;
 };
 
 }  // namespace
 
-void probeCapabilities(Context& context, Capabilities& capabilities,
-                       const std::vector<Capability>& forcedOff) {
+void probeCapabilities(Context& context, device::Capabilities& capabilities,
+                       const std::vector<device::Capability>& forcedOff) {
   // Errors that the host left are not the probes'.
   static_cast<void>(context.checkErrors("before the probes").ok());
   ProbeBench bench(context);
   if (!bench.ready()) {
-    for (CapabilityState& state : capabilities.states) {
-      state = {ProbeOutcome::probeFailed, "no RGBA8 framebuffer object can be made"};
+    for (device::CapabilityState& state : capabilities.states) {
+      state = {device::ProbeOutcome::probeFailed, "no RGBA8 framebuffer object can be made"};
     }
     static_cast<void>(context.checkErrors("probe target").ok());
     return;
   }
   Prober prober(bench, capabilities);
-  Probes& probes = capabilities.probes;
+  device::Probes& probes = capabilities.probes;
 
   probes.mediumpMantissaBits = measureMantissaBits(bench, "mediump");
   probes.highpMantissaBits = measureMantissaBits(bench, "highp");
   const bool highp = probes.highpMantissaBits >= kMinHighpMantissaBits;
   const std::string bitsText = std::to_string(probes.highpMantissaBits) + " mantissa bits measured";
   if (probes.highpMantissaBits == 0) {
-    prober.state(Capability::highp) = {ProbeOutcome::notAdvertised, "no highp fragment shader compiles"};
+    prober.state(device::Capability::highp) = {device::ProbeOutcome::notAdvertised,
+                                               "no highp fragment shader compiles"};
     static_cast<void>(context.checkErrors("highp").ok());
   } else {
-    prober.note(Capability::highp, bitsText, highp ? ProbeFailure() : "only " + bitsText);
+    prober.note(device::Capability::highp, bitsText, highp ? ProbeFailure() : "only " + bitsText);
   }
   const char* best = highp ? "highp" : "mediump";
   const bool highpForcedOff =
-      std::find(forcedOff.begin(), forcedOff.end(), Capability::highp) != forcedOff.end();
+      std::find(forcedOff.begin(), forcedOff.end(), device::Capability::highp) != forcedOff.end();
   probes.varyingMantissaBits = measureVaryingMantissaBits(bench, highpForcedOff ? "mediump" : best);
   probes.byteRounding = measureByteRounding(bench, best);
 
   prober.decide(
-      Capability::depthTexture,
+      device::Capability::depthTexture,
       {"GL_OES_depth_texture", "GL_ANGLE_depth_texture", "GL_WEBGL_depth_texture", "WEBGL_depth_texture"},
       [&] { return probeDepthTexture(bench); });
-  const bool depthTextures = capabilities.has(Capability::depthTexture);
-  prober.decide(Capability::depth24, {"GL_OES_depth24"},
+  const bool depthTextures = capabilities.has(device::Capability::depthTexture);
+  prober.decide(device::Capability::depth24, {"GL_OES_depth24"},
                 [&] { return probeDepth24(bench, depthTextures, highp); });
-  prober.decide(Capability::packedDepthStencil, {"GL_OES_packed_depth_stencil"},
+  prober.decide(device::Capability::packedDepthStencil, {"GL_OES_packed_depth_stencil"},
                 [&] { return probePackedDepthStencil(bench, depthTextures); });
-  prober.decide(Capability::blendMinmax, {"GL_EXT_blend_minmax", "EXT_blend_minmax"},
+  prober.decide(device::Capability::blendMinmax, {"GL_EXT_blend_minmax", "EXT_blend_minmax"},
                 [&] { return probeBlendMinmax(bench); });
   const std::string fetch =
       prober.advertised({"GL_EXT_shader_framebuffer_fetch", "GL_ARM_shader_framebuffer_fetch",
                          "GL_NV_shader_framebuffer_fetch"});
-  prober.decide(Capability::framebufferFetch,
+  prober.decide(device::Capability::framebufferFetch,
                 {"GL_EXT_shader_framebuffer_fetch", "GL_ARM_shader_framebuffer_fetch",
                  "GL_NV_shader_framebuffer_fetch"},
                 [&] { return probeFramebufferFetch(bench, fetch); });
-  prober.decide(Capability::derivatives, {"GL_OES_standard_derivatives", "OES_standard_derivatives"},
+  prober.decide(device::Capability::derivatives, {"GL_OES_standard_derivatives", "OES_standard_derivatives"},
                 [&] { return probeDerivatives(bench); });
-  prober.decide(Capability::discard, {"GL_EXT_discard_framebuffer"}, [&] { return probeDiscard(bench); });
-  prober.decide(Capability::uintIndex, {"GL_OES_element_index_uint", "OES_element_index_uint"},
+  prober.decide(device::Capability::discard, {"GL_EXT_discard_framebuffer"},
+                [&] { return probeDiscard(bench); });
+  prober.decide(device::Capability::uintIndex, {"GL_OES_element_index_uint", "OES_element_index_uint"},
                 [&] { return probeUintIndex(bench); });
-  prober.decide(Capability::textureLod, {"GL_EXT_shader_texture_lod", "EXT_shader_texture_lod"},
+  prober.decide(device::Capability::textureLod, {"GL_EXT_shader_texture_lod", "EXT_shader_texture_lod"},
                 [&] { return probeTextureLod(bench); });
-  prober.decide(Capability::timerQuery, {"GL_EXT_disjoint_timer_query"},
+  prober.decide(device::Capability::timerQuery, {"GL_EXT_disjoint_timer_query"},
                 [&] { return probeTimerQuery(bench); });
 
   if (ProbeFailure failure = probeSeparateDepthStencil(bench); !failure.empty()) {
@@ -126,8 +130,8 @@ void probeCapabilities(Context& context, Capabilities& capabilities,
              failure});
   }
   static_cast<void>(context.checkErrors("probes").ok());
-  for (const Capability forced : forcedOff) {
-    prober.state(forced) = {ProbeOutcome::forcedOff, "forced off by the caller"};
+  for (const device::Capability forced : forcedOff) {
+    prober.state(forced) = {device::ProbeOutcome::forcedOff, "forced off by the caller"};
   }
 }
 

@@ -9,9 +9,10 @@
 namespace halfshadow::gl {
 
 /// Fills `states`, `probes` and `quirks` of `capabilities`, whose driver, limits and extensions are known.
-/// `forcedOff` become ProbeOutcome::forcedOff; with highp among them the varying is measured at mediump, as
-/// programs will use it. Leaves no object and no GL error behind; the caller guards the host's state.
-void probeCapabilities(Context& context, Capabilities& capabilities,
-                       const std::vector<Capability>& forcedOff);
+/// `forcedOff` become device::ProbeOutcome::forcedOff; with highp among them the varying is measured at
+/// mediump, as programs will use it. Leaves no object and no GL error behind; the caller guards the host's
+/// state.
+void probeCapabilities(Context& context, device::Capabilities& capabilities,
+                       const std::vector<device::Capability>& forcedOff);
 
 }  // namespace halfshadow::gl

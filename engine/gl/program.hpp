@@ -94,7 +94,7 @@ class Program {
   std::string label_;
 };
 
-/// Text of a shader file by its name below shaders_es2/ ("pcf.frag"), or null.
+/// Text of a shader file by its name below shaders_es2/ ("map/pcf.frag"), or null.
 using ShaderSourceProvider = std::function<const char*(std::string_view fileName)>;
 
 /// `defines` are "NAME" or "NAME VALUE" lines put in front, in order.
@@ -116,7 +116,8 @@ struct ProgramVariant {
 /// and 1, 2, … its includes in order.
 /// Errors: shaderFailed (file absent, include malformed, absent or nested; capability of HS_USE_… missing).
 Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::string_view fileName,
-                                   const std::vector<std::string>& defines, const Capabilities& capabilities);
+                                   const std::vector<std::string>& defines,
+                                   const device::Capabilities& capabilities);
 
 /// Names of `uniform … sampler2D` declarations in order of appearance, each once; comments are skipped.
 std::vector<std::string> samplerNamesOf(std::string_view source);
@@ -142,7 +143,7 @@ class ProgramCache {
   }
   void clear();
   std::size_t size() const { return programs_.size(); }
-  const Capabilities& capabilities() const { return context_.capabilities(); }
+  const device::Capabilities& capabilities() const { return context_.capabilities(); }
 
  private:
   Context& context_;

@@ -32,7 +32,7 @@ Status ProgramCache::checkAllowed(const ProgramVariant& variant) const {
 Result<Program*> ProgramCache::get(const ProgramVariant& variant) {
   if (const auto found = programs_.find(variant); found != programs_.end()) return found->second.get();
   if (Status s = checkAllowed(variant); !s) return s.error();
-  const Capabilities& capabilities = context_.capabilities();
+  const device::Capabilities& capabilities = context_.capabilities();
   Result<std::string> vertex = assembleShader(provider_, variant.vertexFile, variant.defines, capabilities);
   if (!vertex) return vertex.error();
   Result<std::string> fragment =

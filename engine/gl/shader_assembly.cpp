@@ -48,26 +48,26 @@ bool defined(const std::vector<std::string>& defines, std::string_view name) {
   });
 }
 
-bool advertises(const Capabilities& capabilities, std::string_view extension) {
+bool advertises(const device::Capabilities& capabilities, std::string_view extension) {
   const auto& list = capabilities.extensions;
   return std::find(list.begin(), list.end(), extension) != list.end();
 }
 
 Result<std::string> extensionLines(std::string_view fileName, const std::vector<std::string>& defines,
-                                   const Capabilities& capabilities) {
+                                   const device::Capabilities& capabilities) {
   std::string lines, macros;
-  if (capabilities.has(Capability::derivatives)) {
+  if (capabilities.has(device::Capability::derivatives)) {
     lines += "#extension GL_OES_standard_derivatives : enable\n";
     macros += "#define HS_DERIVATIVES 1\n";
   }
   if (defined(defines, "HS_USE_LOD")) {
-    if (!capabilities.has(Capability::textureLod)) {
+    if (!capabilities.has(device::Capability::textureLod)) {
       return assemblyError(fileName, "HS_USE_LOD needs the capability texture-lod; choose another variant.");
     }
     lines += "#extension GL_EXT_shader_texture_lod : enable\n";
   }
   if (defined(defines, "HS_USE_FETCH")) {
-    if (!capabilities.has(Capability::framebufferFetch)) {
+    if (!capabilities.has(device::Capability::framebufferFetch)) {
       return assemblyError(fileName,
                            "HS_USE_FETCH needs the capability framebuffer-fetch; choose another variant.");
     }
@@ -89,7 +89,7 @@ Result<std::string> extensionLines(std::string_view fileName, const std::vector<
 
 Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::string_view fileName,
                                    const std::vector<std::string>& defines,
-                                   const Capabilities& capabilities) {
+                                   const device::Capabilities& capabilities) {
   const char* text = provider(fileName);
   if (!text) return assemblyError(fileName, "there is no such file below shaders_es2/.");
   const bool isFragment = fileName.ends_with(".frag");
@@ -100,7 +100,7 @@ Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::st
     if (!lines) return lines.error();
     source += *lines;
   }
-  if (!capabilities.has(Capability::highp)) source += "#define HS_NO_HIGHP 1\n";
+  if (!capabilities.has(device::Capability::highp)) source += "#define HS_NO_HIGHP 1\n";
   for (const std::string& define : defines) {
     source += "#define " + define + (define.find(' ') == std::string::npos ? " 1\n" : "\n");
   }

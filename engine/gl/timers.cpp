@@ -6,8 +6,8 @@ namespace halfshadow::gl {
 
 Timer::Timer(Context& context)
     : context_(context),
-      kind_(context.capabilities().has(Capability::timerQuery) ? TimerKind::gpuQuery
-                                                               : TimerKind::finishBounded) {
+      kind_(context.capabilities().has(device::Capability::timerQuery) ? TimerKind::gpuQuery
+                                                                       : TimerKind::finishBounded) {
   if (kind_ != TimerKind::gpuQuery) return;
   query_ = Object<ObjectKind::query>::create(context_);
   if (!query_) kind_ = TimerKind::finishBounded;

@@ -6,6 +6,7 @@
 #include <bit>
 #include <optional>
 
+#include "base/keys.hpp"
 #include "planner/light_space.hpp"
 #include "planner/separation.hpp"
 
@@ -126,13 +127,6 @@ std::string_view skipText(SkipReason reason) {
 
 // Based on: Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", section 4 (the
 // finaliser's constants); the seed is mixed first, so that the order of values matters.
-std::uint64_t combineKeys(std::uint64_t seed, std::uint64_t value) {
-  std::uint64_t z = seed * 0x9e3779b97f4a7c15ull + value + 0x632be59bd9b4e019ull;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-  return z ^ (z >> 31);
-}
-
 void FramePlanner::reset() {
   history_.clear();
 }

@@ -128,7 +128,4 @@ bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& caste
 /// True when the box can be inside the camera's view. Conservative.
 bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight, const scene::Bounds& boundsWorld);
 
-/// 64-bit mixing of revisions into content keys.
-std::uint64_t combineKeys(std::uint64_t seed, std::uint64_t value);
-
 }  // namespace halfshadow::planner

@@ -36,16 +36,16 @@ class ScratchFolder {
   fs::path path_;
 };
 
-gl::Capabilities capabilitiesOf(const ShaderVariant& variant) {
-  gl::Capabilities capabilities;
-  const auto offer = [&](gl::Capability capability, bool available) {
+device::Capabilities capabilitiesOf(const ShaderVariant& variant) {
+  device::Capabilities capabilities;
+  const auto offer = [&](device::Capability capability, bool available) {
     if (available) {
-      capabilities.states[static_cast<std::size_t>(capability)].outcome = gl::ProbeOutcome::available;
+      capabilities.states[static_cast<std::size_t>(capability)].outcome = device::ProbeOutcome::available;
     }
   };
-  offer(gl::Capability::highp, variant.highp);
-  offer(gl::Capability::derivatives, variant.derivatives);
-  offer(gl::Capability::framebufferFetch, true);
+  offer(device::Capability::highp, variant.highp);
+  offer(device::Capability::derivatives, variant.derivatives);
+  offer(device::Capability::framebufferFetch, true);
   capabilities.extensions = {"GL_EXT_shader_framebuffer_fetch"};
   return capabilities;
 }

@@ -22,8 +22,8 @@ constexpr const char* kVertex =
     "attribute highp vec2 a_position;\nvoid main() { gl_Position = vec4(a_position, 0.0, 1.0); }\n";
 // Fragment (x, y) walks the loop of eight texels at its place, and that of the row above it.
 constexpr const char* kFragment = R"(
-#include "vbuffer_edges.glsl"
-#include "vbuffer_merge.glsl"
+#include "list/vbuffer_edges.glsl"
+#include "list/vbuffer_merge.glsl"
 uniform HS_HIGHP sampler2D u_loops;
 HS_HIGHP vec2 vertexAt(HS_HIGHP float k, HS_HIGHP float row) {
   HS_HIGHP vec2 at = vec2(floor(gl_FragCoord.x) * 8.0 + k + 0.5, mod(floor(gl_FragCoord.y) + row, HS_SIDE) + 0.5);
@@ -230,14 +230,14 @@ class VBufferShader : public GlTest {
 };
 
 TEST_F(VBufferShader, HighpIsTheTwinToEightBits) {
-  if (!capabilities().has(gl::Capability::highp)) GTEST_SKIP() << "this driver has no highp in fragments";
+  if (!capabilities().has(device::Capability::highp)) GTEST_SKIP() << "this driver has no highp in fragments";
   // Half a step of storage, and as much again for the arithmetic.
   compareAll(context(), false, 1.0, 0.0, Outputs::all);
   compareAll(context(), true, 1.0, 0.0, Outputs::all);
 }
 
 TEST_F(VBufferShader, MediumpIsTheTwinToItsTenBits) {
-  auto medium = makeContext({.forcedOff = {gl::Capability::highp}});
+  auto medium = makeContext({.forcedOff = {device::Capability::highp}});
   ASSERT_TRUE(medium) << medium.error().message;
   // Coordinates up to 4 have steps of 1/512 in fp16, and quotients of them several; an edge that grazes a
   // quadrant may be taken for one that misses it. (Few outputs: llvmpipe

@@ -127,7 +127,7 @@ TEST_F(ExecutorTest, DrawsReadsAndReports) {
   EXPECT_EQ(reports[0].counters.clears, 1u);
   EXPECT_EQ(reports[0].counters.framebufferSwitches, 1u);
   EXPECT_TRUE(reports[0].cleared && reports[0].stored && !reports[0].loaded);
-  EXPECT_EQ(reports[0].discarded, capabilities().has(gl::Capability::discard));
+  EXPECT_EQ(reports[0].discarded, capabilities().has(device::Capability::discard));
   EXPECT_EQ(reports[0].bytesStored, 64u * 32 * 4);
   EXPECT_FALSE(reports[1].cleared || reports[1].loaded || reports[1].discarded);
   EXPECT_EQ(reports[1].counters.clears, 0u);
@@ -315,8 +315,8 @@ TEST_F(ExecutorTest, TrimFreesWhatRecentRunsDidNotUse) {
 TEST_F(ExecutorTest, MissingCapabilitiesAreNamed) {
   close();
   Result<std::unique_ptr<gl::Context>> bare =
-      test::makeContext({.forcedOff = {gl::Capability::depthTexture, gl::Capability::depth24,
-                                       gl::Capability::packedDepthStencil}});
+      test::makeContext({.forcedOff = {device::Capability::depthTexture, device::Capability::depth24,
+                                       device::Capability::packedDepthStencil}});
   ASSERT_TRUE(bare.ok()) << bare.error().message;
   open(**bare);
   const auto graphWith = [&](Format format, Storage storage, AttachmentPoint point) {

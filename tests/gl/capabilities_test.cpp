@@ -9,26 +9,26 @@
 namespace halfshadow::test {
 namespace {
 
-using gl::Capability;
-using gl::ProbeOutcome;
+using device::Capability;
+using device::ProbeOutcome;
 
 class Capabilities : public GlTest {};
 
 TEST_F(Capabilities, AreReportedWithAReasonEach) {
-  const gl::Capabilities& found = capabilities();
+  const device::Capabilities& found = capabilities();
   std::printf("%s | %s\n", found.driver.renderer.c_str(), found.driver.version.c_str());
-  for (std::size_t i = 0; i < gl::kCapabilityCount; ++i) {
+  for (std::size_t i = 0; i < device::kCapabilityCount; ++i) {
     const auto capability = static_cast<Capability>(i);
-    const gl::CapabilityState& state = found.state(capability);
-    EXPECT_FALSE(state.reason.empty()) << gl::capabilityName(capability);
-    EXPECT_NE(state.outcome, ProbeOutcome::forcedOff) << gl::capabilityName(capability);
-    std::printf("  %-22s %d  %s\n", std::string(gl::capabilityName(capability)).c_str(),
+    const device::CapabilityState& state = found.state(capability);
+    EXPECT_FALSE(state.reason.empty()) << device::capabilityName(capability);
+    EXPECT_NE(state.outcome, ProbeOutcome::forcedOff) << device::capabilityName(capability);
+    std::printf("  %-22s %d  %s\n", std::string(device::capabilityName(capability)).c_str(),
                 static_cast<int>(state.outcome), state.reason.c_str());
   }
   std::printf("  mantissa bits: highp %d, mediump %d, varying %d; byte rounding %d\n",
               found.probes.highpMantissaBits, found.probes.mediumpMantissaBits,
               found.probes.varyingMantissaBits, static_cast<int>(found.probes.byteRounding));
-  for (const gl::Quirk& quirk : found.quirks) {
+  for (const device::Quirk& quirk : found.quirks) {
     std::printf("  quirk %s: %s\n", quirk.name.c_str(), quirk.sentence.c_str());
   }
 }
@@ -39,13 +39,13 @@ TEST_F(Capabilities, NoProbeFailsOnDriversKnownToBeSound) {
                      renderer.find("softpipe") != std::string::npos ||
                      renderer.find("SwiftShader") != std::string::npos;
   if (!known) GTEST_SKIP() << renderer << " is not one of the software rasterizers whose answers are known";
-  for (std::size_t i = 0; i < gl::kCapabilityCount; ++i) {
-    const gl::CapabilityState& state = capabilities().states[i];
+  for (std::size_t i = 0; i < device::kCapabilityCount; ++i) {
+    const device::CapabilityState& state = capabilities().states[i];
     EXPECT_NE(state.outcome, ProbeOutcome::probeFailed) << state.reason;
   }
   EXPECT_TRUE(capabilities().has(Capability::depthTexture));
   EXPECT_EQ(capabilities().probes.highpMantissaBits, 23);  // all three compute highp in IEEE single precision
-  EXPECT_EQ(capabilities().probes.byteRounding, gl::ByteRounding::nearest);
+  EXPECT_EQ(capabilities().probes.byteRounding, device::ByteRounding::nearest);
   // A varying used as a coordinate: 23 bits less one for the rasterizer's interpolation.
   EXPECT_GE(capabilities().probes.varyingMantissaBits, 22);
 }
@@ -61,7 +61,7 @@ TEST_F(Capabilities, LlvmpipeRunsMediumpAsHalfFloats) {
 }
 
 TEST_F(Capabilities, MeetTheMinimaOfTheSpecification) {
-  const gl::Limits& limits = capabilities().limits;
+  const device::Limits& limits = capabilities().limits;
   EXPECT_GE(limits.textureSize, 64);
   EXPECT_GE(limits.renderbufferSize, 1);
   EXPECT_GE(limits.varyingVectors, 8);
@@ -72,14 +72,14 @@ TEST_F(Capabilities, MeetTheMinimaOfTheSpecification) {
 }
 
 TEST_F(Capabilities, NamesFindTheirCapability) {
-  for (std::size_t i = 0; i < gl::kCapabilityCount; ++i) {
+  for (std::size_t i = 0; i < device::kCapabilityCount; ++i) {
     const auto capability = static_cast<Capability>(i);
-    const Result<Capability> found = gl::capabilityFromName(gl::capabilityName(capability));
+    const Result<Capability> found = device::capabilityFromName(device::capabilityName(capability));
     ASSERT_TRUE(found);
     EXPECT_EQ(*found, capability);
-    EXPECT_FALSE(gl::capabilityText(capability).empty());
+    EXPECT_FALSE(device::capabilityText(capability).empty());
   }
-  const Result<Capability> unknown = gl::capabilityFromName("ray-tracing");
+  const Result<Capability> unknown = device::capabilityFromName("ray-tracing");
   ASSERT_FALSE(unknown);
   EXPECT_EQ(unknown.error().code, ErrorCode::invalidArgument);
   EXPECT_NE(unknown.error().message.find("depth-texture"), std::string::npos)
@@ -87,19 +87,21 @@ TEST_F(Capabilities, NamesFindTheirCapability) {
 }
 
 TEST_F(Capabilities, EachCanBeForcedOff) {
-  for (std::size_t i = 0; i < gl::kCapabilityCount; ++i) {
+  for (std::size_t i = 0; i < device::kCapabilityCount; ++i) {
     const auto forced = static_cast<Capability>(i);
     const Result<std::unique_ptr<gl::Context>> made = makeContext({.forcedOff = {forced}});
     ASSERT_TRUE(made);
-    for (std::size_t k = 0; k < gl::kCapabilityCount; ++k) {
+    for (std::size_t k = 0; k < device::kCapabilityCount; ++k) {
       const auto capability = static_cast<Capability>(k);
-      const gl::Capabilities& found = (*made)->capabilities();
+      const device::Capabilities& found = (*made)->capabilities();
       if (capability == forced) {
-        EXPECT_EQ(found.state(capability).outcome, ProbeOutcome::forcedOff) << gl::capabilityName(capability);
+        EXPECT_EQ(found.state(capability).outcome, ProbeOutcome::forcedOff)
+            << device::capabilityName(capability);
         EXPECT_FALSE(found.has(capability));
       } else {
         EXPECT_EQ(found.state(capability).outcome, capabilities().state(capability).outcome)
-            << gl::capabilityName(capability) << " changed with " << gl::capabilityName(forced) << " off";
+            << device::capabilityName(capability) << " changed with " << device::capabilityName(forced)
+            << " off";
       }
     }
   }
@@ -108,7 +110,7 @@ TEST_F(Capabilities, EachCanBeForcedOff) {
 TEST_F(Capabilities, HighpForcedOffMakesFragmentShadersMediump) {
   const Result<std::unique_ptr<gl::Context>> made = makeContext({.forcedOff = {Capability::highp}});
   ASSERT_TRUE(made);
-  const gl::Capabilities& found = (*made)->capabilities();
+  const device::Capabilities& found = (*made)->capabilities();
   const Result<std::string> source = gl::assembleShader(provide(paintFiles()), "paint.frag", {}, found);
   ASSERT_TRUE(source);
   EXPECT_NE(source->find("#define HS_NO_HIGHP"), std::string::npos);

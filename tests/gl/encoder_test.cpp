@@ -21,7 +21,7 @@ class Encoding : public GlTest {
     encoder_ = std::make_unique<gl::Encoder>(context());
     programs_ = std::make_unique<gl::ProgramCache>(context(), provide(paintFiles()));
     encoder_->beginFrame();
-    const bool packed = capabilities().has(gl::Capability::packedDepthStencil);
+    const bool packed = capabilities().has(device::Capability::packedDepthStencil);
     Result<gl::Texture> color = gl::Texture::create(context(), {.width = kSize, .height = kSize});
     Result<gl::Renderbuffer> depth = gl::Renderbuffer::create(
         context(), kSize, kSize,
@@ -118,7 +118,8 @@ TEST_F(Encoding, ScissoredClearsStayInside) {
 }
 
 TEST_F(Encoding, StencilClearReachesAllBitsAfterAMaskedDraw) {
-  if (!capabilities().has(gl::Capability::packedDepthStencil)) GTEST_SKIP() << "needs packed-depth-stencil";
+  if (!capabilities().has(device::Capability::packedDepthStencil))
+    GTEST_SKIP() << "needs packed-depth-stencil";
   begin({.color = kBlack, .depth = 1.0f, .stencil = 0xff});
   gl::DrawState masked;
   masked.stencil.enabled = true;
@@ -277,11 +278,11 @@ TEST_F(Encoding, LostContextsDrawNothingAndRaiseNothing) {
 }
 
 TEST_F(Encoding, TimersMeasureBothWays) {
-  Result<std::unique_ptr<gl::Context>> plain = makeContext({.forcedOff = {gl::Capability::timerQuery}});
+  Result<std::unique_ptr<gl::Context>> plain = makeContext({.forcedOff = {device::Capability::timerQuery}});
   ASSERT_TRUE(plain);
   for (gl::Context* timed : {&context(), plain->get()}) {
     gl::Timer timer(*timed);
-    const bool query = timed->capabilities().has(gl::Capability::timerQuery);
+    const bool query = timed->capabilities().has(device::Capability::timerQuery);
     EXPECT_EQ(timer.kind(), query ? gl::TimerKind::gpuQuery : gl::TimerKind::finishBounded);
     timer.begin();
     begin({.color = kBlack});

@@ -26,7 +26,7 @@ class GlTest : public testing::Test {
   void TearDown() override;
 
   static gl::Context& context();
-  static const gl::Capabilities& capabilities() { return context().capabilities(); }
+  static const device::Capabilities& capabilities() { return context().capabilities(); }
   static HeadlessContext& headless();
 
  private:

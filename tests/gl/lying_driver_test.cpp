@@ -11,8 +11,8 @@
 namespace halfshadow::test {
 namespace {
 
-using gl::Capability;
-using gl::ProbeOutcome;
+using device::Capability;
+using device::ProbeOutcome;
 
 /// The driver's own functions, for the lies to fall back on. Plain functions carry no state, hence static.
 gl::Functions honest;
@@ -83,7 +83,7 @@ class LyingDriver : public GlTest {
  protected:
   /// Capabilities as found when `name` answers with `lie`.
   template <typename Function>
-  gl::Capabilities capabilitiesWith(const char* name, Function* lie) {
+  device::Capabilities capabilitiesWith(const char* name, Function* lie) {
     const auto honestAddress = [this](const char* wanted) { return headless().getProcAddress(wanted); };
     EXPECT_EQ(honest.load(honestAddress), "");
     const auto made = gl::Context::create(
@@ -92,35 +92,36 @@ class LyingDriver : public GlTest {
         },
         {});
     EXPECT_TRUE(made);
-    gl::Capabilities found;
+    device::Capabilities found;
     if (made) found = (*made)->capabilities();
     return found;
   }
   /// Skips where the honest driver lacks the capability: then there is nothing to lie about.
   bool missing(Capability capability) { return !capabilities().has(capability); }
-  void expectCaught(const gl::Capabilities& found, Capability capability) {
-    const gl::CapabilityState& state = found.state(capability);
+  void expectCaught(const device::Capabilities& found, Capability capability) {
+    const device::CapabilityState& state = found.state(capability);
     EXPECT_EQ(state.outcome, ProbeOutcome::probeFailed)
-        << gl::capabilityName(capability) << ": " << state.reason;
+        << device::capabilityName(capability) << ": " << state.reason;
     EXPECT_FALSE(state.reason.empty());
   }
 };
 
 #define SKIP_WITHOUT(capability) \
-  if (missing(capability)) GTEST_SKIP() << "this driver lacks " << gl::capabilityName(capability)
+  if (missing(capability)) GTEST_SKIP() << "this driver lacks " << device::capabilityName(capability)
 
 TEST_F(LyingDriver, WithoutExtensionsOnlyHighpRemains) {
-  const gl::Capabilities found = capabilitiesWith("glGetString", noExtensions);
-  for (std::size_t i = 0; i < gl::kCapabilityCount; ++i) {
+  const device::Capabilities found = capabilitiesWith("glGetString", noExtensions);
+  for (std::size_t i = 0; i < device::kCapabilityCount; ++i) {
     const auto capability = static_cast<Capability>(i);
     if (capability == Capability::highp) continue;
-    EXPECT_EQ(found.state(capability).outcome, ProbeOutcome::notAdvertised) << gl::capabilityName(capability);
+    EXPECT_EQ(found.state(capability).outcome, ProbeOutcome::notAdvertised)
+        << device::capabilityName(capability);
   }
   EXPECT_EQ(found.has(Capability::highp), capabilities().has(Capability::highp));
 }
 
 TEST_F(LyingDriver, ExtensionsThatDoNotCompileAreCaught) {
-  const gl::Capabilities found = capabilitiesWith("glGetString", boastfulExtensions);
+  const device::Capabilities found = capabilitiesWith("glGetString", boastfulExtensions);
   if (missing(Capability::textureLod)) expectCaught(found, Capability::textureLod);
   if (missing(Capability::framebufferFetch)) expectCaught(found, Capability::framebufferFetch);
 }
@@ -170,7 +171,7 @@ TEST_F(LyingDriver, HighpThatIsMediumpIsCaught) {
   if (capabilities().probes.mediumpMantissaBits >= 16) {
     GTEST_SKIP() << "this driver computes mediump in single precision, so highp cannot be impersonated by it";
   }
-  const gl::Capabilities found = capabilitiesWith("glShaderSource", mediumpForHighp);
+  const device::Capabilities found = capabilitiesWith("glShaderSource", mediumpForHighp);
   expectCaught(found, Capability::highp);
   EXPECT_EQ(found.probes.highpMantissaBits, found.probes.mediumpMantissaBits);
 }

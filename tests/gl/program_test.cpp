@@ -11,17 +11,17 @@
 namespace halfshadow::test {
 namespace {
 
+using device::Capability;
 using gl::assembleShader;
-using gl::Capability;
 
-gl::Capabilities withoutAnything() {
+device::Capabilities withoutAnything() {
   return {};
 }
 
-gl::Capabilities with(std::initializer_list<Capability> available) {
-  gl::Capabilities capabilities;
+device::Capabilities with(std::initializer_list<Capability> available) {
+  device::Capabilities capabilities;
   for (const Capability capability : available) {
-    capabilities.states[static_cast<std::size_t>(capability)].outcome = gl::ProbeOutcome::available;
+    capabilities.states[static_cast<std::size_t>(capability)].outcome = device::ProbeOutcome::available;
   }
   return capabilities;
 }
@@ -92,7 +92,7 @@ TEST(ShaderAssembly, FetchAndLodNeedTheirCapability) {
   const auto provider = provide({{"a.frag", "void main() {}\n"}});
   EXPECT_FALSE(assembleShader(provider, "a.frag", {"HS_USE_FETCH"}, withoutAnything()));
   EXPECT_FALSE(assembleShader(provider, "a.frag", {"HS_USE_LOD"}, withoutAnything()));
-  gl::Capabilities capabilities = with({Capability::framebufferFetch, Capability::textureLod});
+  device::Capabilities capabilities = with({Capability::framebufferFetch, Capability::textureLod});
   capabilities.extensions = {"GL_ARM_shader_framebuffer_fetch"};
   const Result<std::string> source =
       assembleShader(provider, "a.frag", {"HS_USE_FETCH", "HS_USE_LOD"}, capabilities);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include "planner/frame_planner.hpp"
+#include "base/keys.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,8 +10,8 @@
 #include "planner/light_fit.hpp"
 #include "scene/camera.hpp"
 #include "scenes/shapes.hpp"
-#include "techniques/volumes/volume_mesh.hpp"
-#include "techniques/volumes/volume_view.hpp"
+#include "techniques/shadow_volume/volume_mesh.hpp"
+#include "techniques/shadow_volume/volume_view.hpp"
 
 namespace halfshadow::test {
 namespace {

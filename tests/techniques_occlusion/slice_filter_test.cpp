@@ -47,7 +47,7 @@ class SliceFilterTest : public test::GlTest {
                            .light = light,
                            .groups = groups};
     auto texture = gl::Texture::create(**context, {.width = size, .height = size}, source.data());
-    auto copy = programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
+    auto copy = programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
     EXPECT_TRUE(texture.ok() && copy.ok());
     const auto slices =
         graph.addResource({.name = "slices",
@@ -149,7 +149,7 @@ TEST_F(SliceFilterTest, SummedAreaTablesOfPartlyCoveredTexelsAreExactInTheirQuan
 TEST_F(SliceFilterTest, SummedAreaTablesAreExactWithoutHighp) {
   const Pixels binary = randomPixels(256, [](std::mt19937& random) { return random() % 3 == 0 ? 255 : 0; });
   gl::ContextOptions options;
-  options.forcedOff = {gl::Capability::highp};
+  options.forcedOff = {device::Capability::highp};
   expectExactSums(256, binary, filter(256, binary, SliceFilter::summedArea, 8, options),
                   [](int byte) { return static_cast<std::uint32_t>(byte); });
 }

@@ -12,7 +12,7 @@
 #include "framegraph/executor.hpp"
 #include "gl_fixture.hpp"
 #include "scene/scene_description.hpp"
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 #include "techniques/registry/registry.hpp"
 
 namespace halfshadow::test {

@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Receivers cut to what pieces of silhouettes can shadow: nothing missing, nothing twice; and where on the
 // screen volumes can be.
-#include "techniques/wedge_receivers/footprints.hpp"
+#include "outlines/footprints.hpp"
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ scene::LightPlane lightPlane() {
 }
 
 /// One polygon at about half the height.
-WedgePieces somePiece(std::mt19937& random) {
+outlines::WedgePieces somePiece(std::mt19937& random) {
   std::uniform_real_distribution<double> jitter(0.7, 1.0);
   scene::LightSilhouettes silhouettes;
   for (int i = 0; i < 7; ++i) {
@@ -35,7 +35,7 @@ WedgePieces somePiece(std::mt19937& random) {
   }
   silhouettes.loops.push_back({0, 7});
   silhouettes.casters.push_back({.firstLoop = 0, .loopCount = 1});
-  WedgePieces pieces;
+  outlines::WedgePieces pieces;
   makeWedgePieces(silhouettes, {16.0, 16.0, 1.0}, 1.01, pieces);
   EXPECT_EQ(pieces.pieces.size(), 1u);
   return pieces;
@@ -48,7 +48,7 @@ glm::dvec3 weights(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c
           glm::dot(n, glm::cross(b - a, p - a)) / area};
 }
 
-bool inVolume(const WedgeExtent& extent, const glm::dvec3& abh, double inwards) {
+bool inVolume(const outlines::WedgeExtent& extent, const glm::dvec3& abh, double inwards) {
   const glm::dvec2 low = extent.low(abh.z) + inwards, high = extent.high(abh.z) - inwards;
   return abh.z > extent.nearest + inwards && abh.x > low.x && abh.y > low.y && abh.x < high.x &&
          abh.y < high.y;
@@ -60,19 +60,19 @@ TEST(Footprints, CoverTheVolumesPartOnceAndCarryTheProjectedPiece) {
   const scene::LightPlane plane = lightPlane();
   int inside = 0, outside = 0, besides = 0;
   for (int round = 0; round < 300; ++round) {
-    const WedgePieces pieces = somePiece(random);
-    const WedgePiece& piece = pieces.pieces[0];
+    const outlines::WedgePieces pieces = somePiece(random);
+    const outlines::WedgePiece& piece = pieces.pieces[0];
     scene::TriangleMesh mesh;
     for (int i = 0; i < 3; ++i) mesh.positions.emplace_back(wide(random), height(random), wide(random));
     mesh.indices = {0, 1, 2};
-    const ReceiverTriangles receiver(mesh, glm::dmat4(1.0), plane);
-    Footprints footprints;
+    const outlines::ReceiverTriangles receiver(mesh, glm::dmat4(1.0), plane);
+    outlines::Footprints footprints;
     addFootprints(receiver, pieces, piece, footprints);
     besides += footprints.beside.empty() ? 0 : 1;
-    for (const FootprintVertex& vertex : footprints.beyond) {
+    for (const outlines::FootprintVertex& vertex : footprints.beyond) {
       for (const float w : vertex.w) EXPECT_GE(w, 0.999e-3f);
     }
-    std::vector<FootprintVertex> all = footprints.beside;
+    std::vector<outlines::FootprintVertex> all = footprints.beside;
     all.insert(all.end(), footprints.beyond.begin(), footprints.beyond.end());
     ASSERT_EQ(all.size() % 3, 0u);
     for (int i = 0; i < 100; ++i) {
@@ -85,7 +85,7 @@ TEST(Footprints, CoverTheVolumesPartOnceAndCarryTheProjectedPiece) {
       if (!in && !out) continue;
       int holding = 0, touching = 0;
       for (std::size_t first = 0; first < all.size(); first += 3) {
-        const FootprintVertex &a = all[first], &b = all[first + 1], &c = all[first + 2];
+        const outlines::FootprintVertex &a = all[first], &b = all[first + 1], &c = all[first + 2];
         const glm::dvec3 w = weights(glm::dvec3(a.positionObject), glm::dvec3(b.positionObject),
                                      glm::dvec3(c.positionObject), point);
         const double least = std::min({w.x, w.y, w.z});
@@ -94,7 +94,7 @@ TEST(Footprints, CoverTheVolumesPartOnceAndCarryTheProjectedPiece) {
         ++touching;
         if (least < 1e-4) continue;
         ++holding;
-        for (std::uint32_t k = 0; k < kPieceVertices; ++k) {
+        for (std::uint32_t k = 0; k < outlines::kPieceVertices; ++k) {
           const glm::dvec3& e = pieces.vertices[piece.firstVertex + std::min(k, piece.vertexCount - 1)];
           const double size = piece.size();
           EXPECT_NEAR(size * (w.x * a.x[k] + w.y * b.x[k] + w.z * c.x[k]), abh.z * e.x - e.z * abh.x, 1e-4);
@@ -123,19 +123,19 @@ TEST(Footprints, NeighboursAreCutAtTheSamePoints) {
   std::uniform_real_distribution<double> wide(-12.0, 12.0), height(0.0, 4.0);
   int cuts = 0;
   for (int round = 0; round < 200; ++round) {
-    const WedgePieces pieces = somePiece(random);
+    const outlines::WedgePieces pieces = somePiece(random);
     scene::TriangleMesh mesh;
     for (int i = 0; i < 4; ++i) mesh.positions.emplace_back(wide(random), height(random), wide(random));
     const auto cutPoints = [&](std::vector<std::uint32_t> indices) {
       scene::TriangleMesh one = mesh;
       one.indices = std::move(indices);
-      Footprints footprints;
-      addFootprints(ReceiverTriangles(one, glm::dmat4(1.0), lightPlane()), pieces, pieces.pieces[0],
+      outlines::Footprints footprints;
+      addFootprints(outlines::ReceiverTriangles(one, glm::dmat4(1.0), lightPlane()), pieces, pieces.pieces[0],
                     footprints);
       const glm::dvec3 from(mesh.positions[0]), along = glm::normalize(glm::dvec3(mesh.positions[1]) - from);
       std::set<std::array<float, 3>> points;
       for (const auto* part : {&footprints.beside, &footprints.beyond}) {
-        for (const FootprintVertex& vertex : *part) {
+        for (const outlines::FootprintVertex& vertex : *part) {
           const glm::dvec3 p = glm::dvec3(vertex.positionObject) - from;
           if (glm::length(p - glm::dot(p, along) * along) < 1e-5)
             points.insert({vertex.positionObject.x, vertex.positionObject.y, vertex.positionObject.z});
@@ -163,7 +163,7 @@ TEST(WedgeBounds, ScreenRectanglesHoldWhatTheCameraSees) {
     const glm::dvec3 center(wide(random), wide(random), wide(random));
     for (int i = 0; i < 8; ++i)
       hull.push_back(center + 0.3 * glm::dvec3(wide(random), wide(random), wide(random)));
-    const auto rect = screenBounds(hull, clipFromWorld, kWide, kHigh);
+    const auto rect = outlines::screenBounds(hull, clipFromWorld, kWide, kHigh);
     if (rect && rect->width * rect->height < kWide * kHigh) ++smaller;
     for (int i = 0; i < 100; ++i) {
       glm::dvec3 point(0.0);
@@ -190,14 +190,15 @@ TEST(WedgeBounds, DisjointRectanglesHoldAllAndMeetNowhere) {
   std::mt19937 random(29);
   std::uniform_int_distribution<int> place(0, 90), size(1, 12);
   for (int round = 0; round < 100; ++round) {
-    std::vector<gl::Rect> rects;
+    std::vector<Rect> rects;
     for (int i = 0; i < 20; ++i) rects.push_back({place(random), place(random), size(random), size(random)});
-    const std::vector<gl::Rect> apart = disjointRects(rects);
+    const std::vector<Rect> apart = outlines::disjointRects(rects);
     for (std::size_t i = 0; i < apart.size(); ++i)
-      for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(commonRect(apart[i], apart[k]));
-    for (const gl::Rect& rect : rects) {
-      EXPECT_EQ(std::ranges::count_if(apart, [&](const gl::Rect& r) { return commonRect(r, rect) == rect; }),
-                1);
+      for (std::size_t k = 0; k < i; ++k) EXPECT_FALSE(outlines::commonRect(apart[i], apart[k]));
+    for (const Rect& rect : rects) {
+      EXPECT_EQ(
+          std::ranges::count_if(apart, [&](const Rect& r) { return outlines::commonRect(r, rect) == rect; }),
+          1);
     }
   }
 }

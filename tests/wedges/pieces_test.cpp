@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-#include "techniques/wedge_volumes/wedge_pieces.hpp"
+#include "outlines/wedge_pieces.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -35,9 +35,9 @@ constexpr glm::dvec3 kUnits(4.0, 4.0, 1.0);
 using Edge = std::array<double, 6>;
 
 /// How often each edge is run through, one way minus the other.
-std::map<Edge, int> edgesOf(const WedgePieces& pieces) {
+std::map<Edge, int> edgesOf(const outlines::WedgePieces& pieces) {
   std::map<Edge, int> edges;
-  for (const WedgePiece& piece : pieces.pieces) {
+  for (const outlines::WedgePiece& piece : pieces.pieces) {
     for (std::uint32_t i = 0; i < piece.vertexCount; ++i) {
       const glm::dvec3& a = pieces.vertices[piece.firstVertex + i];
       const glm::dvec3& b = pieces.vertices[piece.firstVertex + (i + 1) % piece.vertexCount];
@@ -54,7 +54,7 @@ TEST(WedgePieces, AddUpToTheLoopAndNothingElse) {
   for (std::uint32_t vertices = 3; vertices <= 200; ++vertices) {
     scene::LightSilhouettes silhouettes;
     addCaster(silhouettes, vertices, 3.0, -2.0, 0.5, random);
-    WedgePieces pieces;
+    outlines::WedgePieces pieces;
     makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
     const auto edges = edgesOf(pieces);
     EXPECT_EQ(edges.size(), vertices);
@@ -68,7 +68,8 @@ TEST(WedgePieces, AddUpToTheLoopAndNothingElse) {
       ASSERT_NE(found, edges.end()) << "edge " << i << " of " << vertices;
       EXPECT_EQ(found->second, 1);
     }
-    for (const WedgePiece& piece : pieces.pieces) EXPECT_LE(piece.vertexCount, std::uint32_t{kPieceVertices});
+    for (const outlines::WedgePiece& piece : pieces.pieces)
+      EXPECT_LE(piece.vertexCount, std::uint32_t{outlines::kPieceVertices});
     // At most seven edges a piece, spread evenly, and the chords' own pieces: a sixth more, and so on.
     EXPECT_LE(pieces.pieces.size(), vertices / 5 + 2);
   }
@@ -79,9 +80,9 @@ TEST(WedgePieces, VolumesHoldEveryReceiverThatTheirVerticesShadow) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   scene::LightSilhouettes silhouettes;
   addCaster(silhouettes, 40, 5.0, 1.0, 0.7, random);
-  WedgePieces pieces;
+  outlines::WedgePieces pieces;
   makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
-  for (const WedgePiece& piece : pieces.pieces) {
+  for (const outlines::WedgePiece& piece : pieces.pieces) {
     for (int i = 0; i < 1000; ++i) {
       // A point of the piece's hull, seen from a receiver at a point of the light.
       glm::dvec3 point(0.0);
@@ -108,14 +109,14 @@ TEST(WedgePieces, CastersOfABatchShadowNoCommonReceiver) {
   scene::LightSilhouettes silhouettes;
   for (int i = 0; i < 60; ++i)
     addCaster(silhouettes, 20, place(random), place(random), height(random), random);
-  WedgePieces pieces;
+  outlines::WedgePieces pieces;
   makeWedgePieces(silhouettes, kUnits, 1.0, pieces);
   ASSERT_GT(pieces.batchCount, 1u);
   ASSERT_LT(pieces.batchCount, 60u) << "some casters are far apart";
   for (int i = 0; i < 20000; ++i) {
     const glm::dvec3 receiver(place(random), place(random), unit(random));
     std::map<std::uint32_t, int> inside;
-    for (const WedgeCaster& caster : pieces.casters) {
+    for (const outlines::WedgeCaster& caster : pieces.casters) {
       if (receiver.z < caster.extent.nearest) continue;
       const glm::dvec2 low = caster.extent.low(receiver.z), high = caster.extent.high(receiver.z);
       const glm::dvec2 at(receiver);
@@ -130,12 +131,12 @@ TEST(WedgePieces, GridsAreTheCastersOwn) {
   std::mt19937 random(17);
   scene::LightSilhouettes near;
   addCaster(near, 20, 3.0, -2.0, 0.5, random);
-  WedgePieces alone;
+  outlines::WedgePieces alone;
   makeWedgePieces(near, kUnits, 1e9, alone);
   for (const double away : {1e3, 1e6}) {
     scene::LightSilhouettes both = near;
     addCaster(both, 20, 3.0 * away, -2.0 * away, 0.5 * away, random);
-    WedgePieces pieces;
+    outlines::WedgePieces pieces;
     makeWedgePieces(both, kUnits, 1e9, pieces);
     ASSERT_GE(pieces.vertices.size(), alone.vertices.size());
     for (std::size_t i = 0; i < alone.vertices.size(); ++i)
@@ -151,7 +152,7 @@ TEST(WedgePieces, VerticesAreBeforeTheLight) {
     for (const double away : {0.0, 1e2, 1e6}) {
       scene::LightSilhouettes silhouettes;
       addCaster(silhouettes, 30, away, 0.0, height, random);
-      WedgePieces pieces;
+      outlines::WedgePieces pieces;
       makeWedgePieces(silhouettes, kUnits, 1e9, pieces);
       for (const glm::dvec3& vertex : pieces.vertices) EXPECT_GT(vertex.z, 0.0) << height << " " << away;
     }

@@ -114,7 +114,7 @@ TEST_F(WedgesRoutes, AllGiveOneImage) {
   }
 }
 
-// Footprints follow what moves: caster, receiver, light; and hold while only the camera does.
+// outlines::Footprints follow what moves: caster, receiver, light; and hold while only the camera does.
 TEST_F(WedgesRoutes, WhatMovesIsCutAnew) {
   const scene::SceneDescription plate = PlateOverGround{}.scene();
   scene::SceneDescription scene = plate;

@@ -6,24 +6,24 @@
 
 #include <random>
 
-#include "techniques/caster_draws/caster_volumes.hpp"
+#include "techniques/parts/caster_volumes/caster_volumes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
 
 glm::vec3 tangent(const glm::dvec3& abh) {
-  return glm::vec3(tangentPoint(abh));
+  return glm::vec3(outlines::tangentPoint(abh));
 }
 
 /// A closed loop around `center` in (a, b, h), tilted.
-CasterLoops ring(const glm::dvec3& center, double radius, double rise) {
+outlines::CasterLoops ring(const glm::dvec3& center, double radius, double rise) {
   std::vector<glm::vec3> loop;
   for (int k = 0; k < 12; ++k) {
     const double angle = 6.283185307179586 * k / 12.0;
     loop.push_back(tangent(
         center + glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), rise * std::cos(angle))));
   }
-  CasterLoops caster;
+  outlines::CasterLoops caster;
   caster.addLoop(loop);
   return caster;
 }
@@ -33,7 +33,8 @@ struct Receiver {
   glm::dvec3 abh{0.0};
   double i = 0.0;
 };
-Receiver behind(const CasterLoops& caster, const SubLight& light, double end, std::mt19937& random) {
+Receiver behind(const outlines::CasterLoops& caster, const outlines::SubLight& light, double end,
+                std::mt19937& random) {
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   const glm::vec3 ti = caster.points[random() % caster.points.size()];
   const glm::dvec3 vertex(ti.x / ti.z, ti.y / ti.z, 1.0 / ti.z);
@@ -55,8 +56,8 @@ bool inside(const CasterVolume& volume, const Receiver& receiver) {
          glm::all(glm::greaterThanEqual(at, low)) && glm::all(glm::lessThanEqual(at, high));
 }
 
-SubLightLoops crowd(const SubLight& light) {
-  SubLightLoops loops{.light = light};
+outlines::SubLightLoops crowd(const outlines::SubLight& light) {
+  outlines::SubLightLoops loops{.light = light};
   for (int x = -3; x <= 3; ++x) {
     for (int y = -3; y <= 3; ++y) {
       loops.casters.push_back(ring({6.0 * x, 6.0 * y, 0.5 + 0.02 * (x + y)}, 1.2, 0.03 * (x - y)));
@@ -68,9 +69,9 @@ SubLightLoops crowd(const SubLight& light) {
 TEST(CasterVolumes, EveryShadowedReceiverHasOneVolumeOfItsCaster) {
   std::mt19937 random(11);
   const VolumeReach reach{.end = 1.0, .sideways = 64.0};
-  for (const SubLight& light : subLights()) {
-    const SubLightLoops loops = crowd(light);
-    const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), reach, Batching::none);
+  for (const outlines::SubLight& light : outlines::subLights()) {
+    const outlines::SubLightLoops loops = crowd(light);
+    const CasterVolumes volumes = casterVolumes({&loops, 1}, outlines::ListSpace(), reach, Batching::none);
     ASSERT_EQ(volumes.volumes.size(), 2 * loops.casters.size());
     ASSERT_EQ(volumes.batchCount, 1u);
     for (int trial = 0; trial < 5000; ++trial) {
@@ -87,10 +88,10 @@ TEST(CasterVolumes, EveryShadowedReceiverHasOneVolumeOfItsCaster) {
 
 TEST(CasterVolumes, NoTwoOfABatchShareAReceiver) {
   std::mt19937 random(12);
-  const SubLight light{glm::vec2(0.0f), 1.0f};
-  const SubLightLoops loops = crowd(light);
+  const outlines::SubLight light{glm::vec2(0.0f), 1.0f};
+  const outlines::SubLightLoops loops = crowd(light);
   const VolumeReach reach{.end = 1.0, .sideways = 64.0};
-  const CasterVolumes volumes = casterVolumes({&loops, 1}, ListSpace(), reach, Batching::disjoint);
+  const CasterVolumes volumes = casterVolumes({&loops, 1}, outlines::ListSpace(), reach, Batching::disjoint);
   // Penumbrae are about as wide as the casters stand apart: some neighbours meet, not all.
   EXPECT_GT(volumes.batchCount, 1u);
   EXPECT_LT(volumes.batchCount, 20u);
@@ -106,13 +107,13 @@ TEST(CasterVolumes, NoTwoOfABatchShareAReceiver) {
 }
 
 TEST(CasterVolumes, LayersStandForACasterBehindIt) {
-  const SubLight light{glm::vec2(0.0f), 1.0f};
-  SubLightLoops loops{.light = light};
+  const outlines::SubLight light{glm::vec2(0.0f), 1.0f};
+  outlines::SubLightLoops loops{.light = light};
   loops.casters = {ring({0, 0, 0.5}, 2.0, 0.05)};
   loops.layers = {ring({0, 0, 0.5}, 2.0, 0.05), ring({0.5, 0, 0.5}, 1.0, 0.02)};
   loops.casters[0].layerCount = 2;
   const CasterVolumes volumes =
-      casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::disjoint);
+      casterVolumes({&loops, 1}, outlines::ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::disjoint);
   // One at the caster's own heights; behind it one a layer, which overlap.
   ASSERT_EQ(volumes.volumes.size(), 3u);
   EXPECT_EQ(volumes.batchCount, 2u);
@@ -125,11 +126,11 @@ TEST(CasterVolumes, LayersStandForACasterBehindIt) {
 }
 
 TEST(CasterVolumes, AnEnclosedLightNeedsNone) {
-  SubLightLoops loops{.light = {glm::vec2(0.0f), 1.0f}};
+  outlines::SubLightLoops loops{.light = {glm::vec2(0.0f), 1.0f}};
   loops.casters = {ring({0, 0, 0.5}, 2.0, 0.05)};
   loops.casters[0].enclosesLight = true;
   const CasterVolumes volumes =
-      casterVolumes({&loops, 1}, ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::none);
+      casterVolumes({&loops, 1}, outlines::ListSpace(), {.end = 1.0, .sideways = 64.0}, Batching::none);
   EXPECT_TRUE(volumes.lightEnclosed[0]);
   EXPECT_TRUE(volumes.volumes.empty());
 }

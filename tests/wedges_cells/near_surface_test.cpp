@@ -9,8 +9,8 @@
 #include <random>
 
 #include "coverage/trapezoid.hpp"
+#include "outlines/tile_lists.hpp"
 #include "scene/half_edge_mesh.hpp"
-#include "techniques/caster_lists/cell_lists.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -99,14 +99,15 @@ int exits(const scene::TriangleMesh& mesh, Surface surface, const glm::dvec3& fr
 
 /// What a fragment at `receiver` (t, i) makes of its list: layers that cover each of the four cells of each
 /// sub-light.
-std::array<std::array<double, 4>, 4> walk(std::span<const CellRecord> list, std::span<const SubLight> lights,
+std::array<std::array<double, 4>, 4> walk(std::span<const outlines::ListRecord> list,
+                                          std::span<const outlines::SubLight> lights,
                                           const glm::dvec3& receiver) {
   std::array<std::array<double, 4>, 4> covered{};
   std::vector<coverage::Projected<double>> loop;
   std::vector<coverage::FlatPoint<double>> flat;
-  for (const CellRecord& record : list) {
+  for (const outlines::ListRecord& record : list) {
     if (record.startsLoop) loop.clear();
-    const SubLight& light = lights[record.subLight];
+    const outlines::SubLight& light = lights[record.subLight];
     const glm::dvec3 q = glm::dvec3(record.ti) - receiver;
     if (!record.closesLoop) {
       loop.push_back(
@@ -162,25 +163,26 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
   EXPECT_TRUE(area.ok());
   const scene::LightPlane plane(*area, 8.0, 1e-4);
   const scene::PlacedCaster caster{.mesh = &halfEdges};
-  static constexpr auto kQuarters = subLights();
-  ListSpace space(plane);
+  static constexpr auto kQuarters = outlines::subLights();
+  outlines::ListSpace space(plane);
   if (origin == Origin::caster) {
     const glm::dvec3 middle = plane.fromWorld(glm::dvec3(0.0));
     space.originT = glm::dvec2(middle) / middle.z;
     space.originI = 1.0 / middle.z;
   }
-  std::vector<SubLightLoops> loops;
-  for (const SubLight& light : kQuarters) {
+  std::vector<outlines::SubLightLoops> loops;
+  for (const outlines::SubLight& light : kQuarters) {
     scene::LightSilhouettes silhouettes;
     scene::lightSilhouettes({&caster, 1}, plane, light.center.x, light.center.y, 1e-3, silhouettes,
                             scene::LayerSplit::alongside);
-    loops.push_back(loopsOf(silhouettes, {&caster, 1}, light, space));
+    loops.push_back(outlines::loopsOf(silhouettes, {&caster, 1}, light, space));
   }
-  NearSurfaces surfaces({&caster, 1}, space, 1e-3);
-  const ReceiverTiles tiles =
+  outlines::NearSurfaces surfaces({&caster, 1}, space, 1e-3);
+  const outlines::ReceiverTiles tiles =
       receiverTiles({.mesh = &mesh, .closed = surface == Surface::closed, .withPatches = true}, space,
                     shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
-  const CellLists lists = cellLists(loops, surfaces, tiles, {.ownObject = 0}, ListedEdges::all);
+  const outlines::TileLists lists =
+      tileLists(loops, surfaces, tiles, {.ownObject = 0}, outlines::ListedEdges::all);
 
   Deviation result;
   std::mt19937 random(seed);
@@ -198,16 +200,16 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     const glm::dvec3 onSurface = space.tangentPoint(plane.fromWorld(place));
     const glm::ivec2 tile(glm::floor((glm::dvec2(onSurface) - tiles.low) / tiles.tileSize));
     if (tile.x < 0 || tile.y < 0 || tile.x >= tiles.columns || tile.y >= tiles.rows) continue;
-    const TileList& list = lists.tiles[static_cast<std::size_t>(tile.y * tiles.columns + tile.x)];
+    const outlines::TileList& list = lists.tiles[static_cast<std::size_t>(tile.y * tiles.columns + tile.x)];
     // Off its facet by what fragments are.
     const glm::dvec4 facet = space.planeThrough(normal, place - plane.centerWorld);
-    const glm::dvec3 lifted =
-        onSurface + kPlaceRounding * glm::abs(onSurface) * glm::sign(glm::dvec3(facet.x, facet.y, facet.w));
+    const glm::dvec3 lifted = onSurface + outlines::kPlaceRounding * glm::abs(onSurface) *
+                                              glm::sign(glm::dvec3(facet.x, facet.y, facet.w));
     const glm::dvec3 receiver = plane.toWorld(space.lightPoint(lifted));
-    std::vector<CellRecord> records(lists.records.begin() + list.first,
-                                    lists.records.begin() + list.first + list.count);
-    for (CellRecord& record : records) {
-      if (record.behindFacet == CellRecord::kVertex) continue;
+    std::vector<outlines::ListRecord> records(lists.records.begin() + list.first,
+                                              lists.records.begin() + list.first + list.count);
+    for (outlines::ListRecord& record : records) {
+      if (record.behindFacet == outlines::ListRecord::kVertex) continue;
       const glm::dvec2 corner = behindCorner(plane, normal, receiver, record.behindFacet);
       const glm::dvec3 cornerWorld = plane.toWorld({corner.x, corner.y, 0.0});
       record.ti = glm::vec3(space.tangentPoint(plane.fromWorld(0.5 * (receiver + cornerWorld))));

@@ -50,8 +50,8 @@ Status refresh(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target
 }
 }  // namespace
 
-bool needsFacetStream(const gl::Capabilities& capabilities) {
-  return !capabilities.has(gl::Capability::derivatives) || !capabilities.has(gl::Capability::highp);
+bool needsFacetStream(const device::Capabilities& capabilities) {
+  return !capabilities.has(device::Capability::derivatives) || !capabilities.has(device::Capability::highp);
 }
 
 void GpuMesh::split(const scene::TriangleMesh& mesh, bool wideIndices) {
@@ -96,7 +96,7 @@ Status GpuMesh::upload(gl::Context& context, const scene::TriangleMesh& mesh) {
 
 Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh& mesh) {
   GpuMesh gpu;
-  gpu.split(mesh, context.capabilities().has(gl::Capability::uintIndex));
+  gpu.split(mesh, context.capabilities().has(device::Capability::uintIndex));
   if (Status s = gpu.upload(context, mesh); !s) return s.error();
   if (!mesh.texcoords.empty()) {
     const auto texcoords = gathered(mesh.texcoords, gpu.sourceVertex_);

@@ -105,7 +105,7 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
 
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
   ReceiverShading shading;
-  shading.fragmentFile = "shade_lights.frag";
+  shading.fragmentFile = "receiver/shade_lights.frag";
   shading.forward = false;
   shading.textures = {{.sampler = "u_visibility", .resource = visibility}};
   return shading;
@@ -130,7 +130,7 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
     variant.insert(variant.end(), extra.begin(), extra.end());
-    auto linked = programs.get({"receiver.vert", shading.fragmentFile, variant});
+    auto linked = programs.get({"receiver/receiver.vert", shading.fragmentFile, variant});
     if (!linked) return linked.error();
     program = *linked;
     return {};
@@ -150,7 +150,7 @@ Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const Re
                                             ReceiverOutput output, std::span<const DrawItem> items) {
   ReceiverProgramSet set;
   set.twoDraws = shading.skip == FilterSkip::stencil && output != ReceiverOutput::taps;
-  const bool derivatives = programs.capabilities().has(gl::Capability::derivatives);
+  const bool derivatives = programs.capabilities().has(device::Capability::derivatives);
   for (const DrawItem& item : items) {
     const ReceiverKind kind = kindOf(shading, item, output == ReceiverOutput::shaded, derivatives);
     ReceiverPrograms& slot = set.of(kind);
@@ -166,7 +166,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
                    const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
                    const ShadingInputs* inputs, const ReceiverTarget& target) {
   gl::Encoder& encoder = context.encoder;
-  const bool derivatives = encoder.context().capabilities().has(gl::Capability::derivatives);
+  const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
   gl::DrawState state;
   state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less,
                  .write = !target.depthIsComplete};
@@ -224,7 +224,7 @@ Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const Receiv
   defines.push_back("HS_FORWARD");
   if (shading.usesFacetPlane && needsFacetStream(programs.capabilities()))
     defines.push_back("HS_FACET_NORMAL");
-  auto vertex = programs.assemble("forward.vert", defines);
+  auto vertex = programs.assemble("receiver/forward.vert", defines);
   if (!vertex) return vertex.error();
   auto fragment = programs.assemble(shading.fragmentFile, defines);
   if (!fragment) return fragment.error();

@@ -80,7 +80,7 @@ enum class FilterSkip {
 
 /// What a technique may read while it declares a frame for one light. References live until the frame ends.
 struct LightFrame {
-  const gl::Capabilities& capabilities;
+  const device::Capabilities& capabilities;
   gl::Context& context;
   gl::ProgramCache& programs;
   SharedTextures& shared;
@@ -152,7 +152,7 @@ class Technique {
   virtual ~Technique() = default;
   virtual const TechniqueInfo& info() const = 0;
   virtual std::vector<SettingInfo> settings() const { return {}; }
-  virtual Support support(const gl::Capabilities& capabilities) const {
+  virtual Support support(const device::Capabilities& capabilities) const {
     (void)capabilities;
     return {};
   }

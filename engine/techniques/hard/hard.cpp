@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/hard/hard.hpp"
 
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -19,7 +19,7 @@ class Hard final : public Technique {
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
-    return mapReceiverShading(frame, *depth, "hard.frag");
+    return mapReceiverShading(frame, *depth, "map/hard.frag");
   }
 };
 }  // namespace

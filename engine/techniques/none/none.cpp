@@ -15,7 +15,7 @@ class None final : public Technique {
     return info;
   }
   Result<ReceiverShading> declare(const LightFrame&) override {
-    return ReceiverShading{.fragmentFile = "none.frag"};
+    return ReceiverShading{.fragmentFile = "receiver/none.frag"};
   }
 };
 }  // namespace

@@ -197,7 +197,7 @@ class OcclusionTextures final : public Technique {
     const double shorter = std::min(space.shape.x, space.shape.y);
     const int boxes = std::clamp(static_cast<int>(std::lround(1.0 / std::max(shorter, 1e-3))), 1, kMostBoxes);
     ReceiverShading shading;
-    shading.fragmentFile = "occlusion_textures.frag";
+    shading.fragmentFile = "occlusion/occlusion_textures.frag";
     shading.mapFromWorld = space.mapFromWorld;
     shading.defines = {"HS_SLOTS " + std::to_string(slots),
                        "HS_TEXTURES " + std::to_string(filtered.textures.size()),

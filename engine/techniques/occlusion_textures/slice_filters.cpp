@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "base/keys.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -34,7 +34,7 @@ struct LevelLayout {
   int height() const { return 2 * side(0); }
 };
 
-/// Where a mip level lies in its atlas: as light_blocks lays out the blocker pyramid.
+/// Where a mip level lies in its atlas: as parts/maps lays out the blocker pyramid.
 gl::Rect mipRect(int mapSize, int level) {
   const int side = mapSize >> level;
   if (level == 0) return {1, 1, side, side};
@@ -68,14 +68,14 @@ struct Builder {
 };
 
 Result<ResourceId> declareMipmaps(const Builder& b, ResourceId source, int lastLevel) {
-  auto copy = b.frame.programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
+  auto copy = b.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
   if (!copy) return copy.error();
   const int size = b.space.mapSize;
   const auto atlas = b.target(" mip atlas", size + size / 2 + 4, size + 2 * lastLevel + 2, Filter::linear);
   framegraph::PassDesc pass{
       .name = b.prefix + " mip atlas", .stage = framegraph::PassStage::mask, .reads = {source}};
   pass.writes = {{.resource = atlas}};
-  pass.contentKey = planner::combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel));
+  pass.contentKey = combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel));
   pass.execute = [program = *copy, source, size, lastLevel](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
@@ -98,7 +98,8 @@ Result<ResourceId> declareNBuffer(const Builder& b, ResourceId source, int lastL
   for (int level = 0; level <= lastLevel; ++level) {
     std::vector<std::string> defines;
     if (level == 0) defines.push_back("HS_FIRST_LEVEL");
-    auto program = b.frame.programs.get({"fullscreen.vert", "occlusion_level.frag", defines});
+    auto program =
+        b.frame.programs.get({"screen/fullscreen.vert", "occlusion/occlusion_level.frag", defines});
     if (!program) return program.error();
     const int side = layout.side(level);
     const std::string name = " level " + std::to_string(level);
@@ -122,18 +123,18 @@ Result<ResourceId> declareNBuffer(const Builder& b, ResourceId source, int lastL
          .source = level == 0 ? source : levels.back(),
          .target = target,
          .sourceSize = static_cast<int>(sourceSide),
-         .contentKey = planner::combineKeys(b.key, 0x6b0u + static_cast<std::uint64_t>(level)),
+         .contentKey = combineKeys(b.key, 0x6b0u + static_cast<std::uint64_t>(level)),
          .sampler = "u_source",
          .setUniforms = [place](gl::Program& p, gl::Context& context) { p.set(context, "u_place", place); }});
     levels.push_back(target);
   }
-  auto copy = b.frame.programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
+  auto copy = b.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
   if (!copy) return copy.error();
   const auto atlas = b.target(" N-buffer", layout.width(), layout.height(), Filter::linear);
   framegraph::PassDesc pass{
       .name = b.prefix + " N-buffer", .stage = framegraph::PassStage::mask, .reads = levels};
   pass.writes = {{.resource = atlas}};
-  pass.contentKey = planner::combineKeys(b.key, 0x6bffu + static_cast<std::uint64_t>(lastLevel));
+  pass.contentKey = combineKeys(b.key, 0x6bffu + static_cast<std::uint64_t>(lastLevel));
   pass.execute = [program = *copy, levels, layout](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
@@ -158,7 +159,8 @@ Result<ResourceId> declareSummedArea(const Builder& b, ResourceId source) {
       const bool first = direction == 0 && stride == 1;
       std::vector<std::string> defines;
       if (first) defines.push_back("HS_FIRST_STEP");
-      auto program = b.frame.programs.get({"fullscreen.vert", "occlusion_sum.frag", defines});
+      auto program =
+          b.frame.programs.get({"screen/fullscreen.vert", "occlusion/occlusion_sum.frag", defines});
       if (!program) return program.error();
       const std::string name = std::string(direction == 0 ? " row" : " column") + " sums of " +
                                std::to_string(std::min(4 * stride, size));
@@ -171,7 +173,7 @@ Result<ResourceId> declareSummedArea(const Builder& b, ResourceId source) {
                      .source = current,
                      .target = target,
                      .sourceSize = first ? size : 2 * size,
-                     .contentKey = planner::combineKeys(
+                     .contentKey = combineKeys(
                          b.key, 0x5a70000u + static_cast<std::uint64_t>(direction * 65536 + stride)),
                      .sampler = "u_source",
                      .setUniforms = [step, quantum](gl::Program& p, gl::Context& context) {
@@ -212,7 +214,7 @@ Result<FilteredSlices> declareSliceFilter(const LightFrame& frame, const SliceSp
   for (std::size_t i = 0; i < slices.textures.size(); ++i) {
     const Builder builder{frame, space,
                           "light " + std::to_string(frame.lightIndex) + " occlusion " + std::to_string(i + 1),
-                          planner::combineKeys(slices.contentKey, i + 1)};
+                          combineKeys(slices.contentKey, i + 1)};
     auto made = filter == SliceFilter::mipmap    ? declareMipmaps(builder, slices.textures[i], lastLevel)
                 : filter == SliceFilter::nbuffer ? declareNBuffer(builder, slices.textures[i], lastLevel)
                                                  : declareSummedArea(builder, slices.textures[i]);

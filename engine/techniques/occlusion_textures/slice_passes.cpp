@@ -6,9 +6,9 @@
 #include <bit>
 #include <optional>
 
-#include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
-#include "techniques/light_depth/last_receivers.hpp"
+#include "base/keys.hpp"
+#include "techniques/parts/maps/last_receivers.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -32,11 +32,11 @@ ChannelBorders channelBorders(const SliceSpace& space, std::size_t firstSlice, i
 }
 
 std::uint64_t keyOf(std::uint64_t seed, double value) {
-  return planner::combineKeys(seed, std::bit_cast<std::uint64_t>(value));
+  return combineKeys(seed, std::bit_cast<std::uint64_t>(value));
 }
 
 std::uint64_t spaceKey(std::uint64_t seed, const SliceSpace& space) {
-  seed = planner::combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
+  seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
   seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.sideScale);
   seed = keyOf(seed, space.depthSlices);
   for (const Slice& slice : space.slices) seed = keyOf(keyOf(seed, slice.casterLow), slice.high);
@@ -87,13 +87,14 @@ struct LastReceiverDepth {
 Result<std::optional<LastReceiverDepth>> declareLastReceivers(const LightFrame& frame,
                                                               const SliceSpace& space, int size) {
   // Without highp no comparison tells a ground from what lies on it.
-  if (!frame.capabilities.has(gl::Capability::highp)) return std::optional<LastReceiverDepth>();
+  if (!frame.capabilities.has(device::Capability::highp)) return std::optional<LastReceiverDepth>();
   LastReceivers last = lastReceivers(frame);
   if (last.empty) return std::optional<LastReceiverDepth>();
-  auto program = frame.programs.get({"occlusion_slices.vert", "occlusion_slices.frag", {"HS_PACK_DEPTH"}});
+  auto program = frame.programs.get(
+      {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}});
   if (!program) return program.error();
   const std::string name = "light " + std::to_string(frame.lightIndex) + " occlusion last receivers";
-  LastReceiverDepth result{.contentKey = planner::combineKeys(spaceKey(last.contentKey, space), 3)};
+  LastReceiverDepth result{.contentKey = combineKeys(spaceKey(last.contentKey, space), 3)};
   result.map = frame.graph.addResource(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
   const auto depth = frame.graph.addResource({.name = name + " depth test",
@@ -123,7 +124,7 @@ Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& s
                                     SliceFilter filter) {
   const bool nearest = content == SliceContent::nearestFaces;
   SliceTextures result{.slicesPerTexture = nearest ? 2 : 4};
-  result.contentKey = planner::combineKeys(spaceKey(frame.contentKey, space), nearest ? 2 : 1);
+  result.contentKey = combineKeys(spaceKey(frame.contentKey, space), nearest ? 2 : 1);
   const int size = nearest ? 2 * space.mapSize : space.mapSize;
   std::vector<std::string> defines;
   std::optional<LastReceiverDepth> last;
@@ -135,12 +136,13 @@ Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& s
     if (last) {
       defines.push_back("HS_LAST_RECEIVERS");
       result.lastReceivers = last->map;
-      result.contentKey = planner::combineKeys(result.contentKey, last->contentKey);
+      result.contentKey = combineKeys(result.contentKey, last->contentKey);
     }
   }
-  auto program = frame.programs.get({"occlusion_slices.vert", "occlusion_slices.frag", defines});
+  auto program =
+      frame.programs.get({"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines});
   if (!program) return program.error();
-  auto copy = frame.programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
+  auto copy = frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
   if (!copy) return copy.error();
 
   const std::string prefix = "light " + std::to_string(frame.lightIndex) + " occlusion ";
@@ -149,7 +151,7 @@ Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& s
     const std::size_t end =
         std::min(first + static_cast<std::size_t>(result.slicesPerTexture), space.slices.size());
     const std::string name = prefix + "slices " + std::to_string(first + 1) + "-" + std::to_string(end);
-    const std::uint64_t key = planner::combineKeys(result.contentKey, first + 1);
+    const std::uint64_t key = combineKeys(result.contentKey, first + 1);
     framegraph::ResourceDesc desc{.name = name,
                                   .width = space.mapSize,
                                   .height = space.mapSize,
@@ -204,7 +206,7 @@ Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& s
                                   .source = target,
                                   .target = averaged,
                                   .sourceSize = size,
-                                  .contentKey = planner::combineKeys(key, 0xa4e6u),
+                                  .contentKey = combineKeys(key, 0xa4e6u),
                                   .sampler = "u_source"});
     }
     result.textures.push_back(averaged);

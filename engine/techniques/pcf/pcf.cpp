@@ -2,9 +2,9 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/pcf/pcf.hpp"
 
-#include "techniques/edge_mask/edge_mask.hpp"
-#include "techniques/kernels/poisson_disc.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/parts/maps/edge_mask.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/poisson_disc.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -77,7 +77,7 @@ class Pcf final : public Technique {
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
-    return kernelShading(frame, *depth, "pcf", "pcf.frag");
+    return kernelShading(frame, *depth, "pcf", "map/pcf.frag");
   }
 };
 
@@ -115,7 +115,7 @@ class PcfMasked final : public Technique {
     const Settings& settings = frame.settings;
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
-    ReceiverShading shading = kernelShading(frame, *depth, "pcf-masked", "pcf_masked.frag");
+    ReceiverShading shading = kernelShading(frame, *depth, "pcf-masked", "map/pcf_masked.frag");
     const double radius = kernelRadiusTexels(frame, "pcf-masked");
     if (settings.choice("pcf-masked.mask") == "minmax") {
       auto bounds = declareBlockBounds(frame, *depth, radius);

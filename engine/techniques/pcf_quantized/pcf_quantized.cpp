@@ -7,9 +7,9 @@
 #include <charconv>
 #include <cmath>
 
-#include "techniques/edge_mask/edge_mask.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
-#include "techniques/light_blocks/one_view.hpp"
+#include "techniques/parts/maps/edge_mask.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -91,7 +91,7 @@ class PcfQuantized final : public Technique {
          .radiusTexels = 0.5 * sides[2],
          .strengthPerDepth = std::max(strength, 1e-6)});
     if (!mask) return mask.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized_paper.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcf_quantized_paper.frag");
     addEdgeMask(shading, *mask);
     addKernels(shading, sides);
     return shading;
@@ -102,7 +102,7 @@ class PcfQuantized final : public Technique {
     if (!depth) return depth.error();
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcf_quantized.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcf_quantized.frag");
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
     addSelfReceiverSearch(frame, shading);
     addBlockerPyramid(shading, *depth, *pyramid);

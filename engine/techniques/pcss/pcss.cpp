@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/pcss/pcss.hpp"
 
-#include "techniques/light_blocks/light_blocks.hpp"
-#include "techniques/light_blocks/one_view.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -27,7 +27,7 @@ class Pcss final : public Technique {
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcss.frag");
     shading.defines.push_back("HS_SEARCH " + frame.settings.text("pcss.search"));
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss.size"));
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/pcss_mip/pcss_mip.hpp"
 
-#include "techniques/light_blocks/light_blocks.hpp"
-#include "techniques/light_blocks/one_view.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -29,7 +29,7 @@ class PcssMip final : public Technique {
     if (!depth) return depth.error();
     auto pyramid = declareBlockerPyramid(frame, *depth);
     if (!pyramid) return pyramid.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "pcss_mip.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
     if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
     addSelfReceiverSearch(frame, shading);

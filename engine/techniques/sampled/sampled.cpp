@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "techniques/core/receiver_pass.hpp"
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -56,7 +56,7 @@ class Sampled final : public Technique {
       if (Status s = declareSample(frame, i, counts, depthTest); !s) return s.error();
     }
     ReceiverShading shading;
-    shading.fragmentFile = "screen_counts.frag";
+    shading.fragmentFile = "screen/screen_counts.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_counts", .resource = counts}};
     const glm::vec4 scale(255.0 / samples, 0, 0, 0);
@@ -82,7 +82,7 @@ class Sampled final : public Technique {
     sample.contentKey = sample.sceneKey = 0;
     auto depth = declareLightDepth(sample, MapContent::casters);
     if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(sample, *depth, "hard.frag");
+    ReceiverShading shading = mapReceiverShading(sample, *depth, "map/hard.frag");
     shading.defines.push_back("HS_COUNT_SHADOWED");
     auto programs = receiverPrograms(frame.programs, shading, ReceiverOutput::visibility, frame.receivers);
     if (!programs) return programs.error();

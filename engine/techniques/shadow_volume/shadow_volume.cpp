@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "techniques/volumes/volume_count.hpp"
+#include "techniques/shadow_volume/volume_count.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -41,7 +41,7 @@ class ShadowVolume final : public Technique {
 
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     const std::string& count = frame.settings.choice("shadow-volume.count");
-    const bool hasStencil = frame.capabilities.has(gl::Capability::packedDepthStencil);
+    const bool hasStencil = frame.capabilities.has(device::Capability::packedDepthStencil);
     if (count == "stencil" && !hasStencil) {
       return Error{ErrorCode::capabilityMissing,
                    "shadow-volume.count=stencil needs the capability 'packed-depth-stencil', which this "
@@ -58,7 +58,7 @@ class ShadowVolume final : public Technique {
     jobs_->push_back({std::move(volumes).value(), frame.lightIndex});
 
     ReceiverShading shading;
-    shading.fragmentFile = "screen_visibility.frag";
+    shading.fragmentFile = "screen/screen_visibility.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_screen", .resource = target}};
     for (int column = 0; column < 4; ++column) {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <memory>
 
-#include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "base/keys.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -46,7 +46,7 @@ Result<framegraph::ResourceId> declareGpuSteps(const WidthPasses& passes,
         passes.addTarget(name, last ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient);
     const std::size_t count = steps[i].neighbours.size();
     auto program = passes.frame.programs.get(
-        {"fullscreen.vert", "width_minimum.frag", {"HS_NEIGHBOURS " + std::to_string(count)}});
+        {"screen/fullscreen.vert", "width/width_minimum.frag", {"HS_NEIGHBOURS " + std::to_string(count)}});
     if (!program) return program.error();
     std::vector<glm::vec4> offsets;
     for (const glm::ivec2& offset : steps[i].neighbours)
@@ -90,7 +90,7 @@ Status computeOnCpu(framegraph::PassContext& context, framegraph::ResourceId occ
 
 Result<framegraph::ResourceId> declareCpuSteps(const WidthPasses& passes,
                                                const std::vector<WidthStep>& steps) {
-  auto program = passes.frame.programs.get({"fullscreen.vert", "pyramid_copy.frag", {}});
+  auto program = passes.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
   if (!program) return program.error();
   const auto target = passes.addTarget("map", framegraph::Lifetime::persistent);
   framegraph::PassDesc pass{.name = passes.prefix + "map on the CPU",
@@ -158,13 +158,13 @@ Result<PaperWidthMap> declarePaperWidth(const LightFrame& frame, const LightDept
                      .prefix = "light " + std::to_string(frame.lightIndex) + " shadow width ",
                      .side = depth.space.mapSize};
   const std::size_t shape = steps.size() * 16 + steps.front().neighbours.size();
-  passes.contentKey = planner::combineKeys(
-      depth.contentKey, shape * 512 + static_cast<std::size_t>(steps.front().differenceBytes) * 2 +
-                            (build == WidthBuild::cpu ? 1 : 0));
+  passes.contentKey = combineKeys(depth.contentKey,
+                                  shape * 512 + static_cast<std::size_t>(steps.front().differenceBytes) * 2 +
+                                      (build == WidthBuild::cpu ? 1 : 0));
   passes.occlusion = passes.addTarget("occlusion", framegraph::Lifetime::transient);
   auto defines = depthDefines(depth.storage);
   if (depth.content == MapContent::castersFarthest) defines.push_back("HS_FARTHEST");
-  auto program = frame.programs.get({"fullscreen.vert", "width_occlusion.frag", defines});
+  auto program = frame.programs.get({"screen/fullscreen.vert", "width/width_occlusion.frag", defines});
   if (!program) return program.error();
   addFilterPass(frame.graph,
                 {.name = passes.prefix + "occlusion",

@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
 

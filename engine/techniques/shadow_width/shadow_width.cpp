@@ -119,7 +119,7 @@ class ShadowWidth final : public Technique {
   static Result<ReceiverShading> declareSigned(const LightFrame& frame) {
     auto depth = declareLightDepth(frame, MapContent::casters);
     if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "shadow_width.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "width/shadow_width.frag");
     if (frame.fit.halfSize == glm::dvec2(0.0)) {
       shading.defines.push_back("HS_POINT_LIGHT");
       return shading;
@@ -146,7 +146,7 @@ class ShadowWidth final : public Technique {
     auto width = declarePaperWidth(frame, *depth, steps, build);
     if (!width) return width.error();
 
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "shadow_width.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "width/shadow_width.frag");
     shading.defines.push_back("HS_PAPER");
     shading.textures.push_back({.sampler = "u_widthMap", .resource = width->map});
     Attenuation constants{.scale = frame.settings.real("shadow-width.scale"),

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/frame_planner.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
-#include "techniques/light_depth/last_receivers.hpp"
+#include "base/keys.hpp"
+#include "techniques/parts/maps/last_receivers.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -82,7 +82,7 @@ int boxTiles(const LightFrame& frame, const MapSpace& space, const SignedWidthMa
 std::uint64_t shapeKey(const SignedWidthMap& map) {
   const std::uint64_t sides =
       static_cast<std::uint64_t>(map.width) * 65536 + static_cast<std::uint64_t>(map.height);
-  return planner::combineKeys(sides, static_cast<std::uint64_t>(map.reachTexels));
+  return combineKeys(sides, static_cast<std::uint64_t>(map.reachTexels));
 }
 
 struct Source {
@@ -101,7 +101,7 @@ struct Step {
 };
 
 Status addStep(const LightFrame& frame, const LightDepth& depth, const SignedWidthMap& map, Step step) {
-  auto program = frame.programs.get({"fullscreen.vert", step.file, step.defines});
+  auto program = frame.programs.get({"screen/fullscreen.vert", step.file, step.defines});
   if (!program) return program.error();
   framegraph::PassDesc pass{.name = step.name, .stage = framegraph::PassStage::mask};
   pass.name = "light " + std::to_string(frame.lightIndex) + " " + step.name;
@@ -163,7 +163,7 @@ static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const Light
     const double neighbour = (level % 2 == 0 ? 1.0 : -1.0) * std::exp2(level);
     if (Status s = addStep(frame, depth, map,
                            {.name = "width boxes",
-                            .file = "width_box.frag",
+                            .file = "width/width_box.frag",
                             .sources = {{"u_coverage", levels.back()}},
                             .target = next,
                             .strideTexels = 2 << level,
@@ -173,7 +173,7 @@ static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const Light
     }
     levels.push_back(next);
   }
-  auto program = frame.programs.get({"fullscreen.vert", "width_tile.frag", {}});
+  auto program = frame.programs.get({"screen/fullscreen.vert", "width/width_tile.frag", {}});
   if (!program) return program.error();
   boxes.atlas = frame.graph.addResource({.name = prefix + "box atlas",
                                          .width = 2 * map.width,
@@ -183,8 +183,7 @@ static Result<WidthBoxes> declareWidthBoxes(const LightFrame& frame, const Light
   framegraph::PassDesc pass{.name = prefix + "box atlas", .stage = framegraph::PassStage::mask};
   pass.reads.assign(levels.begin() + 1, levels.end());
   pass.writes = {{.resource = boxes.atlas}};
-  pass.contentKey =
-      planner::combineKeys(depth.contentKey, shapeKey(map) + static_cast<std::uint64_t>(boxes.tiles));
+  pass.contentKey = combineKeys(depth.contentKey, shapeKey(map) + static_cast<std::uint64_t>(boxes.tiles));
   pass.execute = [program = *program, levels, layout = layoutUniform(map), width = map.width,
                   height = map.height, tiles = boxes.tiles](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
@@ -260,11 +259,11 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
     if (!last) return last.error();
     defines.push_back("HS_LAST_RECEIVERS");
     sources.push_back({"u_lastReceivers", last->map});
-    depth.contentKey = planner::combineKeys(depth.contentKey, last->contentKey);
+    depth.contentKey = combineKeys(depth.contentKey, last->contentKey);
   }
   if (Status s = addStep(frame, depth, map,
                          {.name = "width coverage",
-                          .file = "width_coverage.frag",
+                          .file = "width/width_coverage.frag",
                           .defines = defines,
                           .sources = std::move(sources),
                           .target = coverage});
@@ -275,7 +274,7 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   auto offsets = addTarget("seeds", Lifetime::transient, Filter::nearest);
   if (Status s = addStep(frame, depth, map,
                          {.name = "width seeds",
-                          .file = "width_seed.frag",
+                          .file = "width/width_seed.frag",
                           .sources = {{"u_coverage", coverage}},
                           .target = offsets});
       !s) {
@@ -287,7 +286,7 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
     const auto next = addTarget("offsets " + std::to_string(stride), Lifetime::transient, Filter::nearest);
     if (Status s = addStep(frame, depth, map,
                            {.name = "width flood",
-                            .file = "width_flood.frag",
+                            .file = "width/width_flood.frag",
                             .sources = {{"u_offsets", offsets}},
                             .target = next,
                             .strideTexels = stride});
@@ -304,10 +303,10 @@ Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDe
   if (Status s =
           addStep(frame, depth, map,
                   {.name = "width map",
-                   .file = "width_finish.frag",
+                   .file = "width/width_finish.frag",
                    .sources = {{"u_offsets", offsets}, {"u_coverage", coverage}, {"u_boxes", boxes->atlas}},
                    .target = map.map,
-                   .contentKey = planner::combineKeys(depth.contentKey, shape)});
+                   .contentKey = combineKeys(depth.contentKey, shape)});
       !s) {
     return s.error();
   }

@@ -5,7 +5,7 @@
 /// sides of it, with the depth of the caster there.
 #pragma once
 
-#include "techniques/light_depth/light_depth.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
 

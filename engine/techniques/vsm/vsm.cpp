@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "planner/frame_planner.hpp"
+#include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
-#include "techniques/light_blocks/light_blocks.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -40,8 +40,8 @@ class Vsm final : public Technique {
              {"8", "16"},
              "bits per moment: 8 is what the paper's device had, 16 packs two bytes"}};
   }
-  Support support(const gl::Capabilities& capabilities) const override {
-    if (capabilities.has(gl::Capability::highp)) return {};
+  Support support(const device::Capabilities& capabilities) const override {
+    if (capabilities.has(device::Capability::highp)) return {};
     return {false, "highp: the variance of two moments is below what fp16 resolves; use pcf or pcss-mip"};
   }
   std::optional<StandIn> standIn(const LightFrame& frame) const override {
@@ -71,13 +71,13 @@ class Vsm final : public Technique {
     momentDefines.insert(momentDefines.end(), storage.begin(), storage.end());
     auto blurDefines = storage;
     blurDefines.push_back("HS_KERNEL " + frame.settings.text("vsm.size"));
-    auto moments = frame.programs.get({"fullscreen.vert", "vsm_moments.frag", momentDefines});
+    auto moments = frame.programs.get({"screen/fullscreen.vert", "map/vsm_moments.frag", momentDefines});
     if (!moments) return moments.error();
-    auto blur = frame.programs.get({"fullscreen.vert", "vsm_blur.frag", blurDefines});
+    auto blur = frame.programs.get({"screen/fullscreen.vert", "map/vsm_blur.frag", blurDefines});
     if (!blur) return blur.error();
 
-    std::uint64_t key = planner::combineKeys(
-        depth->contentKey, (bytes ? 0x8u : 0x16u) + 256u * frame.settings.integer("vsm.size"));
+    std::uint64_t key =
+        combineKeys(depth->contentKey, (bytes ? 0x8u : 0x16u) + 256u * frame.settings.integer("vsm.size"));
     framegraph::ResourceId source = depth->map;
     const char* names[] = {" moments", " moments blurred along s", " moments blurred"};
     for (int step = 0; step < 3; ++step) {
@@ -96,7 +96,7 @@ class Vsm final : public Technique {
                      .source = source,
                      .target = target,
                      .sourceSize = space.mapSize,
-                     .contentKey = planner::combineKeys(key, step),
+                     .contentKey = combineKeys(key, step),
                      .sampler = step == 0 ? gl::UniformKey("u_depthMap") : gl::UniformKey("u_source"),
                      .setUniforms = [range, direction](gl::Program& program, gl::Context& context) {
                        program.set(context, "u_momentRange", range);
@@ -104,7 +104,7 @@ class Vsm final : public Technique {
                      }});
       source = target;
     }
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "vsm.frag");
+    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/vsm.frag");
     shading.textures[0] = {.sampler = "u_moments", .resource = source};
     shading.defines.insert(shading.defines.end(), storage.begin(), storage.end());
     shading.setUniforms = [range, inner = std::move(shading.setUniforms)](gl::Program& program,

@@ -2,8 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
-#include "techniques/caster_lists/own_receivers.hpp"
-#include "techniques/wedge_receivers/wedge_route.hpp"
+#include "techniques/parts/lists/own_receivers.hpp"
+#include "techniques/parts/wedges/wedge_route.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -26,8 +26,8 @@ class OwnReceivers {
             "the surfaces of casters that are not convex"};
   }
   Result<ReceiverShading> addTo(Result<ReceiverShading> shading, const LightFrame& frame) {
-    return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], tilesKey_, {&kWholeLight, 1},
-                            OwnSurfaces::hollow);
+    return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], tilesKey_,
+                            {&outlines::kWholeLight, 1}, OwnSurfaces::hollow);
   }
   void contextLost() { lists_.clear(); }
 
@@ -36,7 +36,7 @@ class OwnReceivers {
   std::map<int, LightLists> lists_;
 };
 
-WedgeGroup castersWhere(const WedgePieces& pieces, auto predicate) {
+WedgeGroup castersWhere(const outlines::WedgePieces& pieces, auto predicate) {
   WedgeGroup group;
   for (std::uint32_t i = 0; i < pieces.casters.size(); ++i) {
     if (!predicate(pieces.casters[i])) continue;
@@ -50,11 +50,12 @@ WedgeGroup castersWhere(const WedgePieces& pieces, auto predicate) {
 }
 
 /// Casters that are one piece, which need no sum, then the batches of the others.
-std::vector<WedgeGroup> wholeThenBatches(const WedgePieces& pieces) {
+std::vector<WedgeGroup> wholeThenBatches(const outlines::WedgePieces& pieces) {
   std::vector<WedgeGroup> groups;
-  groups.push_back(castersWhere(pieces, [](const WedgeCaster& caster) { return caster.pieceCount == 1; }));
+  groups.push_back(
+      castersWhere(pieces, [](const outlines::WedgeCaster& caster) { return caster.pieceCount == 1; }));
   for (std::uint32_t batch = 0; batch < pieces.batchCount; ++batch) {
-    groups.push_back(castersWhere(pieces, [batch](const WedgeCaster& caster) {
+    groups.push_back(castersWhere(pieces, [batch](const outlines::WedgeCaster& caster) {
       return caster.pieceCount > 1 && caster.batch == batch;
     }));
   }
@@ -140,20 +141,20 @@ class ProbabilisticWedges final : public Technique {
   static std::vector<gl::Rect> touched(const LightFrame& frame, const WedgeVolumes& volumes,
                                        std::uint32_t batch) {
     const View& view = frame.view;
-    const glm::dmat4 clipFromLight = view.clipFromWorld * worldFromLight(volumes.plane);
+    const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
     std::vector<gl::Rect> rects;
-    for (const WedgeCaster& caster : volumes.pieces.casters) {
+    for (const outlines::WedgeCaster& caster : volumes.pieces.casters) {
       if (caster.pieceCount < 2 || caster.batch != batch) continue;
-      const auto corners = volumeHull(caster.extent, caster.extent.nearest, volumes.end());
-      if (const auto rect = screenBounds(corners, clipFromLight, view.width, view.height))
+      const auto corners = outlines::volumeHull(caster.extent, caster.extent.nearest, volumes.end());
+      if (const auto rect = outlines::screenBounds(corners, clipFromLight, view.width, view.height))
         rects.push_back(*rect);
     }
-    return disjointRects(std::move(rects));
+    return outlines::disjointRects(std::move(rects));
   }
 
   static Status declareMerge(const LightFrame& frame, const WedgeVolumes& volumes, std::uint32_t batch,
                              ResourceId sums, ResourceId visibility) {
-    auto merge = frame.programs.get({"fullscreen.vert", "wedge_merge.frag", {}});
+    auto merge = frame.programs.get({"screen/fullscreen.vert", "wedge/wedge_merge.frag", {}});
     if (!merge) return merge.error();
     framegraph::PassDesc multiply{
         .name = wedgePassName(frame, "visibility of batch " + std::to_string(batch)),

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "techniques/wedge_volumes/wedge_passes.hpp"
+#include "techniques/parts/wedges/wedge_passes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -171,7 +171,7 @@ class VbufferPasses {
   }
 
   Status addExcess(const std::string& name, ResourceId target, std::uint32_t batch) {
-    auto program = frame_.programs.get({"fullscreen.vert", "vbuffer_add.frag", {}});
+    auto program = frame_.programs.get({"screen/fullscreen.vert", "list/vbuffer_add.frag", {}});
     if (!program) return program.error();
     framegraph::PassDesc pass = describe(name, target, batch);
     pass.reads = {excess_};
@@ -223,11 +223,11 @@ class VbufferPasses {
          .initial = request.batch == 0 ? InitialContent::clear : request.initial,
          .clear = clear},
         {.resource = depth_.depthTest, .point = AttachmentPoint::depth, .initial = InitialContent::keep}};
-    auto programs = casterPrograms(frame_, "caster_blend.frag", request.defines);
+    auto programs = casterPrograms(frame_, "list/caster_blend.frag", request.defines);
     if (!programs) return programs.error();
     gl::Program* copy = nullptr;
     if (request.copied.valid()) {
-      auto linked = frame_.programs.get({"fullscreen.vert", "vbuffer_add.frag", {}});
+      auto linked = frame_.programs.get({"screen/fullscreen.vert", "list/vbuffer_add.frag", {}});
       if (!linked) return linked.error();
       copy = *linked;
     }
@@ -264,7 +264,7 @@ class VbufferPasses {
 
 Result<ReceiverShading> declareVbufferTargets(const LightFrame& frame, CasterDraws& draws,
                                               const VbufferRequest& request) {
-  if (Status s = draws.update(frame, {&kWholeLight, 1}, Batching::disjoint); !s) return s.error();
+  if (Status s = draws.update(frame, {&outlines::kWholeLight, 1}, Batching::disjoint); !s) return s.error();
   auto depth = declareReceiverDepth(frame, ReceiverAlpha::facets);
   if (!depth) return depth.error();
   VbufferPasses passes(frame, draws, *depth, request);

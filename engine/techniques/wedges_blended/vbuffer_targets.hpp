@@ -5,7 +5,7 @@
 /// of the light that is occluded, four rectangles, and on demand centres of gravity.
 #pragma once
 
-#include "techniques/caster_draws/caster_draws.hpp"
+#include "techniques/parts/caster_volumes/caster_draws.hpp"
 
 namespace halfshadow::techniques {
 

@@ -5,16 +5,16 @@
 #include <algorithm>
 #include <optional>
 
-#include "techniques/caster_lists/own_receivers.hpp"
-#include "techniques/wedge_receivers/wedge_route.hpp"
+#include "techniques/parts/lists/own_receivers.hpp"
+#include "techniques/parts/wedges/wedge_route.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
 /// Whether some receiver can lie in the penumbrae of two casters.
 bool castersMeet(const WedgeVolumes& volumes) {
-  std::vector<const WedgeCaster*> byA;
-  for (const WedgeCaster& caster : volumes.pieces.casters) byA.push_back(&caster);
+  std::vector<const outlines::WedgeCaster*> byA;
+  for (const outlines::WedgeCaster& caster : volumes.pieces.casters) byA.push_back(&caster);
   for (std::size_t i = 0; i < byA.size(); ++i) {
     for (std::size_t k = 0; k < i; ++k) {
       if (byA[i]->extent.meets(byA[k]->extent, volumes.farthest)) return true;
@@ -31,13 +31,14 @@ std::optional<SideMerge> targetMerge(const LightFrame& frame) {
   const auto note = [&](const char* why) {
     frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge " + asked, why);
   };
-  if (!frame.capabilities.has(gl::Capability::highp)) {
+  if (!frame.capabilities.has(device::Capability::highp)) {
     note("a receiver's place needs highp in fragment shaders: casters are gathered");
     return std::nullopt;
   }
-  if (asked == "fetch" && frame.capabilities.has(gl::Capability::framebufferFetch)) return SideMerge::fetch;
+  if (asked == "fetch" && frame.capabilities.has(device::Capability::framebufferFetch))
+    return SideMerge::fetch;
   if (asked == "core") return SideMerge::core;
-  const bool minmax = frame.capabilities.has(gl::Capability::blendMinmax);
+  const bool minmax = frame.capabilities.has(device::Capability::blendMinmax);
   if (asked == "fetch") note("no framebuffer fetch here: rectangles are united by blending");
   if (!minmax) note("no EXT_blend_minmax here: rectangles are united by fixed functions of the core");
   return minmax ? SideMerge::minmax : SideMerge::core;
@@ -98,7 +99,7 @@ class WedgesBlended final : public Technique {
       light.meetKey = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
-    if (!light.meet && frame.capabilities.has(gl::Capability::highp)) return addUp(frame, light.lists);
+    if (!light.meet && frame.capabilities.has(device::Capability::highp)) return addUp(frame, light.lists);
     if (const auto merge = targetMerge(frame)) {
       const bool centres = frame.settings.choice("wedges-blended.cog") == "on";
       return withOwn(declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres}), frame,
@@ -128,18 +129,18 @@ class WedgesBlended final : public Technique {
   static Result<ReceiverShading> withOwn(Result<ReceiverShading> shading, const LightFrame& frame,
                                          LightLists& lists) {
     return techniques::withOwnReceivers(std::move(shading), frame, lists, "wedges-blended.tiles",
-                                        {&kWholeLight, 1}, OwnSurfaces::all);
+                                        {&outlines::kWholeLight, 1}, OwnSurfaces::all);
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.
   static Result<ReceiverShading> gather(const LightFrame& frame, LightLists& lists) {
-    const ListRequest request{.subLights = {&kWholeLight, 1},
-                              .edges = ListedEdges::all,
+    const ListRequest request{.subLights = {&outlines::kWholeLight, 1},
+                              .edges = outlines::ListedEdges::all,
                               .tiles = frame.settings.integer("wedges-blended.tiles"),
                               .tilesKey = "wedges-blended.tiles"};
     if (Status s = lists.update(frame, request); !s) return s.error();
     ReceiverShading shading;
-    shading.fragmentFile = "wedges_blended.frag";
+    shading.fragmentFile = "list/wedges_blended.frag";
     if (frame.settings.choice("wedges-blended.cog") == "on") shading.defines.push_back("HS_CENTRES");
     lists.provide(frame, shading);
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.

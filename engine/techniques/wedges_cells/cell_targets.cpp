@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges_cells/cell_targets.hpp"
 
-#include "techniques/wedge_volumes/wedge_passes.hpp"
+#include "techniques/parts/wedges/wedge_passes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -21,14 +21,14 @@ std::vector<CellTarget> targetsOf(int cells) {
   std::vector<CellTarget> targets;
   if (cells == 4) {
     targets.emplace_back();
-    for (std::uint32_t s = 0; s < kSubLights; ++s) {
+    for (std::uint32_t s = 0; s < outlines::kSubLights; ++s) {
       CellTarget::Draw draw{.subLight = s, .channels = {}};
       draw.channels[s] = true;
       targets[0].draws.push_back(draw);
     }
     return targets;
   }
-  for (std::uint32_t s = 0; s < kSubLights; ++s) {
+  for (std::uint32_t s = 0; s < outlines::kSubLights; ++s) {
     for (int half = 0; half < cells / 16; ++half) {
       targets.push_back({.image = {}, .draws = {{.subLight = s}}, .upper = half == 1});
     }
@@ -41,7 +41,7 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
   std::vector<std::string> defines = {"HS_CELLS " + std::to_string(cells)};
   if (target.upper) defines.push_back("HS_UPPER_CELLS");
   if (product == CellProduct::fetched) defines.push_back("HS_USE_FETCH");
-  auto programs = casterPrograms(frame, "caster_cells.frag", defines);
+  auto programs = casterPrograms(frame, "list/caster_cells.frag", defines);
   if (!programs) return programs.error();
   framegraph::ClearValue lit;
   for (const CellTarget::Draw& draw : target.draws) {
@@ -73,7 +73,7 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
 
 /// Eight targets and a base colour are more textures than a pass may read: their mean is taken first.
 Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<const ReceiverTexture> cells) {
-  auto program = frame.programs.get({"fullscreen.vert", "cell_mean.frag", {}});
+  auto program = frame.programs.get({"screen/fullscreen.vert", "list/cell_mean.frag", {}});
   if (!program) return program.error();
   const framegraph::ResourceId mean = screenImage(frame, "mean of cells");
   framegraph::PassDesc pass{.name = wedgePassName(frame, "mean of cells"),
@@ -99,7 +99,7 @@ Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<co
 
 Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws& draws, int cells,
                                            CellProduct product) {
-  static constexpr auto kQuarters = subLights();
+  static constexpr auto kQuarters = outlines::subLights();
   static constexpr std::array<gl::UniformKey, 8> kSamplers = {"u_cells0", "u_cells1", "u_cells2", "u_cells3",
                                                               "u_cells4", "u_cells5", "u_cells6", "u_cells7"};
   if (Status s = draws.update(frame, kQuarters, Batching::none); !s) return s.error();
@@ -121,7 +121,7 @@ Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws&
     textures = {{.sampler = kSamplers[0], .resource = *mean}};
   }
   ReceiverShading shading;
-  shading.fragmentFile = "screen_cells.frag";
+  shading.fragmentFile = "list/screen_cells.frag";
   shading.defines = {"HS_CELL_TARGETS " + std::to_string(textures.size()),
                      "HS_CELLS " + std::to_string(cells)};
   shading.forward = false;

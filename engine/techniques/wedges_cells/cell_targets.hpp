@@ -4,7 +4,7 @@
 /// Light cells in RGBA8 targets: what each caster leaves of a cell is multiplied into it where it stands.
 #pragma once
 
-#include "techniques/caster_draws/caster_draws.hpp"
+#include "techniques/parts/caster_volumes/caster_draws.hpp"
 
 namespace halfshadow::techniques {
 

@@ -4,12 +4,12 @@
 
 #include <map>
 
-#include "techniques/caster_lists/own_receivers.hpp"
+#include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
 
 namespace halfshadow::techniques {
 namespace {
-constexpr auto kQuarters = subLights();
+constexpr auto kQuarters = outlines::subLights();
 
 enum class Route { gather, scatter, fetch };
 
@@ -22,10 +22,10 @@ Route routeOf(const LightFrame& frame) {
     frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " route " + asked, why);
     return route;
   };
-  if (!frame.capabilities.has(gl::Capability::highp)) {
+  if (!frame.capabilities.has(device::Capability::highp)) {
     return instead(Route::gather, "a receiver's place needs highp in fragment shaders: cells are gathered");
   }
-  if (asked == "fetch" && !frame.capabilities.has(gl::Capability::framebufferFetch)) {
+  if (asked == "fetch" && !frame.capabilities.has(device::Capability::framebufferFetch)) {
     return instead(Route::scatter, "no framebuffer fetch here: cells are multiplied by blending");
   }
   return asked == "fetch" ? Route::fetch : Route::scatter;
@@ -98,12 +98,12 @@ Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
 Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
   LightLists& lists = lists_[frame.lightIndex];
   const ListRequest request{.subLights = kQuarters,
-                            .edges = ListedEdges::covering,
+                            .edges = outlines::ListedEdges::covering,
                             .tiles = frame.settings.integer("wedges-cells.tiles"),
                             .tilesKey = "wedges-cells.tiles"};
   if (Status s = lists.update(frame, request); !s) return s.error();
   ReceiverShading shading;
-  shading.fragmentFile = "wedges_cells.frag";
+  shading.fragmentFile = "list/wedges_cells.frag";
   shading.defines = {"HS_CELLS " + frame.settings.choice("wedges-cells.bytes")};
   lists.provide(frame, shading);
   // Most fragments have no list; a loop that ends at once still costs a round on some devices.

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouette loops as seen from a set of receivers: which of their vertices matter there.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "outlines/near_surface.hpp"
+#include "outlines/tangent_space.hpp"
+#include "scene/light_silhouettes.hpp"
+
+namespace halfshadow::outlines {
+
+/// Loops of one caster part seen from one sub-light, in (t, i); counter-clockwise around what they cover.
+struct CasterLoops {
+  struct Loop {
+    std::uint32_t first = 0, count = 0;  ///< in `points`
+    bool oneSided = false;               ///< counts only where what it covers is positive
+  };
+  std::vector<glm::vec3> points;
+  std::vector<Loop> loops;
+  glm::vec3 low{1e30f}, high{-1e30f};
+  float deepest = 0.0f;  ///< no point of its part has a smaller i; the loops of a bowl do not tell
+  bool enclosesLight = false;
+  /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
+  /// it; none where it does not hide itself.
+  std::uint32_t firstLayer = 0, layerCount = 0;
+  std::uint32_t object = 0, part = 0;
+  /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
+  bool convex = true;
+
+  void clear();
+  void addLoop(std::span<const glm::vec3> loop);
+};
+
+/// All casters of one sub-light.
+struct SubLightLoops {
+  SubLight light;
+  std::vector<CasterLoops> casters;
+  std::vector<CasterLoops> layers;
+};
+/// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
+SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
+                      std::span<const scene::PlacedCaster> casters, const SubLight& light,
+                      const ListSpace& space);
+
+/// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
+/// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.
+class OuterSides {
+ public:
+  OuterSides(const SubLight& light, const TangentBox& receivers);
+  /// Bits 0-3: beyond the right, left, upper, lower side for all receivers.
+  unsigned code(const glm::vec3& ti) const {
+    return (ti.x - right_ * ti.z > rightBound_ ? 1u : 0u) | (ti.x - left_ * ti.z < leftBound_ ? 2u : 0u) |
+           (ti.y - upper_ * ti.z > upperBound_ ? 4u : 0u) | (ti.y - lower_ * ti.z < lowerBound_ ? 8u : 0u);
+  }
+  /// Sides beyond which an edge covers no part of any cell: cells count x from their left side, within their
+  /// rows.
+  static constexpr unsigned kCoversNothing = 2u | 4u | 8u;
+  /// The same for all points of a box at once; 0 when no side has all of it.
+  unsigned code(const glm::vec3& low, const glm::vec3& high) const;
+
+ private:
+  float left_, right_, lower_, upper_;
+  float leftBound_, rightBound_, lowerBound_, upperBound_;
+};
+
+enum class Coverage { none, full, partial };
+
+/// Writes into `result` loops that cover every cell of the sub-light exactly as `caster` does, for every
+/// receiver in the box: parts farther from the light than all receivers are cut off, runs of vertices beyond
+/// one side collapse to their chord, loops that cover nothing are dropped. `full`: the sub-light is wholly
+/// covered for all of them; `none`: not at all (result empty).
+Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+                  CasterLoops& result);
+
+/// The same from the faces of a caster, for receivers not behind all of it. `facets`:
+/// those that matter, or more.
+Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+                  const ReceiverSet& receivers, FacetChoice choice, CasterLoops& result);
+
+}  // namespace halfshadow::outlines

@@ -1,0 +1,334 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "outlines/tile_lists.hpp"
+
+#include <algorithm>
+#include <array>
+#include <map>
+
+namespace halfshadow::outlines {
+namespace {
+/// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
+/// few vertices.
+constexpr int kBlock = 8;
+/// Casters of a list that are tested against each other.
+constexpr std::size_t kMostApart = 32;
+
+/// What may shadow a block, per sub-light.
+struct BlockCasters {
+  /// A caster among whose surfaces some receivers of the block stand: its faces that matter there.
+  struct Near {
+    const CasterLoops* caster = nullptr;
+    const NearSurface* surface = nullptr;
+    FacetChoice choice = FacetChoice::asLightSees;
+    std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
+  };
+  struct Partial {
+    CasterLoops loops;
+    const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
+  };
+  std::vector<Partial> partial;
+  std::vector<Near> near;
+  bool full = false;
+};
+
+/// Faces in reach of a block, the same for all sub-lights.
+class BlockFacets {
+ public:
+  void clear() { facets_.clear(); }
+  std::span<const std::uint32_t> of(const CasterLoops& caster, const NearSurface& surface,
+                                    const TangentBox& receivers) {
+    const auto [found, isNew] = facets_.try_emplace({caster.object, caster.part});
+    if (isNew) facetsInReach(surface, receivers, found->second);
+    return found->second;
+  }
+
+ private:
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facets_;
+};
+
+/// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
+/// out; others fragments cut at their own height and need them whole.
+void appendCaster(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+                  std::uint8_t subLight, ListedEdges edges, std::vector<ListRecord>& records) {
+  const std::size_t before = records.size();
+  const OuterSides sides(light, receivers);
+  for (const CasterLoops::Loop& loop : caster.loops) {
+    const auto at = [&](std::uint32_t k) { return caster.points[loop.first + k % loop.count]; };
+    bool whole = edges == ListedEdges::all || loop.oneSided;
+    for (std::uint32_t k = 0; k < loop.count; ++k) whole = whole || at(k).z < receivers.iHigh;
+    bool chained = false;
+    for (std::uint32_t k = 0; k <= loop.count; ++k) {
+      const bool leads = k < loop.count &&
+                         (whole || !(sides.code(at(k)) & sides.code(at(k + 1)) & OuterSides::kCoversNothing));
+      if (chained || leads) {
+        records.push_back({.ti = at(k),
+                           .subLight = subLight,
+                           .startsLoop = !chained,
+                           .closesLoop = whole && k == loop.count,
+                           .oneSided = loop.oneSided});
+      }
+      chained = leads;
+    }
+  }
+  if (records.size() > before) records.back().end = ListRecord::End::caster;
+}
+
+/// The triangle that covers of the light what lies behind a fragment's own facet.
+void appendBehindFacet(std::uint8_t subLight, std::vector<ListRecord>& records) {
+  for (const std::int8_t corner : {0, 1, 2, 0}) {
+    records.push_back({.subLight = subLight, .behindFacet = corner});
+  }
+  records[records.size() - 4].startsLoop = true;
+  records.back().closesLoop = true;
+  records.back().end = ListRecord::End::caster;
+}
+
+/// The box around all non-empty boxes of a block of tiles.
+TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
+  TangentBox all;
+  for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
+    for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
+      const TangentBox& box = tiles.boxes[static_cast<std::size_t>(y * tiles.columns + x)];
+      if (box.empty()) continue;
+      if (all.empty()) {
+        all = box;
+        continue;
+      }
+      all.tLow = glm::min(all.tLow, box.tLow);
+      all.tHigh = glm::max(all.tHigh, box.tHigh);
+      all.iLow = std::min(all.iLow, box.iLow);
+      all.iHigh = std::max(all.iHigh, box.iHigh);
+    }
+  }
+  return all;
+}
+
+/// What stands for a caster where all receivers are behind it: its layers, or itself where it does not hide
+/// itself.
+void forEachLayer(const SubLightLoops& loops, const CasterLoops& caster, auto&& use) {
+  if (caster.layerCount == 0) use(caster);
+  for (std::uint32_t l = 0; l < caster.layerCount; ++l) use(loops.layers[caster.firstLayer + l]);
+}
+
+void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
+                 const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
+  result.full = false;
+  result.partial.clear();
+  result.near.clear();
+  thread_local CasterLoops simplified;
+  const OuterSides sides(loops.light, receivers);
+  const NearSurface* around = nullptr;
+  const auto add = [&](const CasterLoops& caster) {
+    const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
+    if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
+    result.full = result.full || coverage == Coverage::full;
+  };
+  const auto addNear = [&](const CasterLoops& caster) {
+    BlockCasters::Near near{.caster = &caster,
+                            .surface = &surfaces.of(caster.object, caster.part),
+                            .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
+                                                                          : FacetChoice::asLightSees};
+    if (near.surface->facets.empty()) return false;
+    near.facets = facets.of(caster, *near.surface, receivers);
+    if (near.facets.empty()) return true;
+    if (std::ranges::find(result.near, near.surface, &BlockCasters::Near::surface) != result.near.end())
+      near.facets = {};
+    result.near.push_back(near);
+    return true;
+  };
+  for (const CasterLoops& caster : loops.casters) {
+    around = nullptr;
+    const glm::vec3 low(glm::vec2(caster.low), std::min(caster.low.z, caster.deepest));
+    if (low.z >= receivers.iHigh) {
+      forEachLayer(loops, caster, add);
+      continue;
+    }
+    if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
+      const NearSurface& surface = surfaces.of(caster.object, caster.part);
+      const Interior interior = interiorOf(surface, receivers);
+      if (interior != Interior::outside && hidesFromInside(surface, loops.light)) {
+        result.full = result.full || interior == Interior::inside;
+        around = &surface;
+      }
+    }
+    const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
+    if (among && sides.code(low, caster.high) != 0) continue;
+    if (!among || !addNear(caster)) add(caster);
+  }
+  if (result.full) {
+    result.partial.clear();
+    result.near.clear();
+  }
+}
+
+/// Ranges of a caster along an axis of the light, as the corners of a receiver box see it.
+struct SeenRange {
+  std::array<float, 4> low, high;
+};
+
+/// Whether every two casters of the list are separated along an axis of the light for all receivers of the
+/// box. E before F along x is (tE - tP)(iF - iP) < (tF - tP)(iE - iP), which is linear in P, since the terms
+/// in tP·iP cancel: what holds at the corners holds inside.
+bool castersApart(std::span<const ListRecord> list, const TangentBox& receivers) {
+  thread_local std::vector<std::array<SeenRange, 2>> casters;
+  casters.clear();
+  bool starts = true;
+  for (const ListRecord& record : list) {
+    if (record.behindFacet != ListRecord::kVertex || record.ti.z <= receivers.iHigh) return false;
+    if (starts) {
+      SeenRange none;
+      none.low.fill(1e30f), none.high.fill(-1e30f);
+      casters.push_back({none, none});
+      if (casters.size() > kMostApart) return false;
+    }
+    starts = record.end != ListRecord::End::none;
+    for (std::size_t corner = 0; corner < 4; ++corner) {
+      const glm::vec2 t = corner & 1 ? receivers.tHigh : receivers.tLow;
+      const float inverse = 1.0f / (record.ti.z - (corner & 2 ? receivers.iHigh : receivers.iLow));
+      for (int axis = 0; axis < 2; ++axis) {
+        SeenRange& range = casters.back()[static_cast<std::size_t>(axis)];
+        const float seen = (record.ti[axis] - t[axis]) * inverse;
+        range.low[corner] = std::min(range.low[corner], seen);
+        range.high[corner] = std::max(range.high[corner], seen);
+      }
+    }
+  }
+  const auto before = [](const SeenRange& a, const SeenRange& b) {
+    for (std::size_t c = 0; c < 4; ++c) {
+      if (a.high[c] > b.low[c]) return false;
+    }
+    return true;
+  };
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    for (std::size_t m = 0; m < k; ++m) {
+      const auto &a = casters[k], &b = casters[m];
+      if (!before(a[0], b[0]) && !before(b[0], a[0]) && !before(a[1], b[1]) && !before(b[1], a[1]))
+        return false;
+    }
+  }
+  return true;
+}
+
+TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
+                  const ReceiverSet& set, ListedEdges edges, std::vector<ListRecord>& records) {
+  const TangentBox& receivers = set.box;
+  TileList list{.first = static_cast<std::uint32_t>(records.size())};
+  thread_local CasterLoops simplified;
+  for (std::size_t s = 0; s < subLights.size(); ++s) {
+    const std::size_t before = records.size();
+    const SubLightLoops& loops = subLights[s];
+    bool full = block[s].full;
+    const auto add = [&](Coverage coverage) {
+      full = full || coverage == Coverage::full;
+      if (coverage != Coverage::partial) return;
+      appendCaster(simplified, loops.light, receivers, static_cast<std::uint8_t>(s), edges, records);
+      if (list.casters < 255) ++list.casters;
+    };
+    for (std::size_t c = 0; c < block[s].partial.size() && !full; ++c) {
+      const BlockCasters::Partial& partial = block[s].partial[c];
+      const bool inside =
+          partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
+      add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
+    }
+    for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
+      const auto& [caster, surface, choice, facets] = block[s].near[c];
+      if (std::min(caster->low.z, caster->deepest) >= receivers.iHigh) {
+        forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
+          if (!full) add(simplify(layer, loops.light, receivers, simplified));
+        });
+      } else {
+        // Only of its own tiles the patches are known.
+        const bool own = choice == FacetChoice::asReceiversSee;
+        const OwnHorizon horizon = own ? ownHorizon(*surface, loops.light, set) : OwnHorizon::unknown;
+        if (horizon != OwnHorizon::unknown) {
+          full = horizon == OwnHorizon::behind;
+          if (horizon != OwnHorizon::across) continue;
+          appendBehindFacet(static_cast<std::uint8_t>(s), records);
+          if (list.casters < 255) ++list.casters;
+          continue;
+        }
+        add(simplify(*surface, facets, loops.light,
+                     own ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
+      }
+    }
+    if (full) {
+      records.resize(before);
+    } else if (records.size() == before) {
+      ++list.litSubLights;
+    } else {
+      records.back().end = ListRecord::End::subLight;
+    }
+  }
+  list.count = static_cast<std::uint32_t>(records.size()) - list.first;
+  list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
+    return record.behindFacet == ListRecord::kVertex && record.ti.z < receivers.iHigh;
+  });
+  list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
+               ((list.casters == 1 && records.back().behindFacet == ListRecord::kVertex) ||
+                castersApart(std::span(records).subspan(list.first), receivers));
+  if (list.count > 0) records.back().end = ListRecord::End::list;
+  return list;
+}
+}  // namespace
+
+TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
+                    std::size_t mostRecords) {
+  TileLists lists;
+  lists.tiles.resize(tiles.boxes.size());
+  std::vector<BlockCasters> block(subLights.size());
+  BlockFacets facets;
+  for (int y0 = 0; y0 < tiles.rows; y0 += kBlock) {
+    for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
+      const TangentBox all = blockBox(tiles, x0, y0);
+      if (all.empty()) continue;
+      lists.cutShort = lists.records.size() > mostRecords;
+      if (lists.cutShort) return lists;
+      facets.clear();
+      for (std::size_t s = 0; s < subLights.size(); ++s) {
+        simplifyAll(subLights[s], surfaces, facets, all, receiver, block[s]);
+      }
+      for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
+        for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
+          const auto tile = static_cast<std::size_t>(y * tiles.columns + x);
+          if (tiles.boxes[tile].empty()) {
+            lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
+            continue;
+          }
+          lists.tiles[tile] =
+              tileList(subLights, block,
+                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
+                       edges, lists.records);
+          lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
+          lists.partialTiles += lists.tiles[tile].count > 0;
+        }
+      }
+    }
+  }
+  lists.oneSided = std::ranges::any_of(lists.records, &ListRecord::oneSided);
+  lists.behindFacets = std::ranges::any_of(
+      lists.records, [](const ListRecord& record) { return record.behindFacet != ListRecord::kVertex; });
+  lists.amongReceivers = std::ranges::any_of(lists.tiles, &TileList::amongReceivers);
+  return lists;
+}
+
+TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double farthest) {
+  TangentRect rect;
+  for (const SubLightLoops& subLight : subLights) {
+    for (const CasterLoops& caster : subLight.casters) {
+      if (caster.enclosesLight) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
+      for (const glm::vec3& point : caster.points) {
+        // A receiver behind E is shadowed from light points up to 1 away: its tangent differs from E's by at
+        // most the light's half side as it grows from E's height to the receiver's.
+        const glm::dvec3 p(point);
+        const double spread = std::max(p.z - farthest, 0.0);
+        rect.low = glm::min(rect.low, glm::dvec2(p) - spread);
+        rect.high = glm::max(rect.high, glm::dvec2(p) + spread);
+      }
+    }
+  }
+  return rect;
+}
+
+}  // namespace halfshadow::outlines

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Lists of silhouette vertices per tile of a receiver, as fragment shaders walk them.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "outlines/caster_loops.hpp"
+#include "outlines/receiver_tiles.hpp"
+
+namespace halfshadow::outlines {
+
+/// One vertex in a list. Lists go sub-light by sub-light, caster by caster, loop by loop; a loop is its
+/// vertices and the first once more.
+struct ListRecord {
+  glm::vec3 ti{0.0f};
+  std::uint8_t subLight = 0;
+  bool startsLoop = false;  ///< no edge leads here
+  bool closesLoop = false;
+  bool oneSided = false;  ///< of its loop, which counts only where what it covers is positive
+  /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane
+  /// of the receiver's own facet.
+  std::int8_t behindFacet = kVertex;
+  static constexpr std::int8_t kVertex = -1;
+  enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
+};
+
+struct TileList {
+  std::uint32_t first = 0, count = 0;  ///< in TileLists::records
+  std::uint8_t casters = 0;            ///< in the list; 255 = that many or more
+  std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
+  /// Of whole loops: no receiver of the tile sees two of its casters before the same point of the light.
+  bool apart = false;
+  /// Some vertices may lie beside or behind a receiver of the tile, so that edges must be cut.
+  bool amongReceivers = false;
+};
+
+struct TileLists {
+  std::vector<TileList> tiles;  ///< one for each box of the receiver's tiles
+  std::vector<ListRecord> records;
+  std::uint32_t longestList = 0;
+  std::size_t partialTiles = 0;  ///< tiles with a list
+  bool oneSided = false;         ///< some record is
+  bool amongReceivers = false;   ///< some tile is
+  bool behindFacets = false;     ///< some record is of what lies behind a facet
+  bool cutShort = false;         ///< there would be too many records: the rest is missing
+};
+
+/// Which edges of a simplified loop are listed.
+enum class ListedEdges {
+  covering,  ///< those that can cover part of a cell: enough for areas
+  all        ///< whole loops: rectangles around what they cover need every side
+};
+
+inline constexpr std::uint32_t kNoObject = ~0u;
+
+struct ListedReceiver {
+  std::uint32_t ownObject = kNoObject;  ///< the receiver as a caster; then its tiles have patches
+};
+
+/// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
+/// made of. Stops, cut short, at `mostRecords`.
+TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
+                    const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
+                    std::size_t mostRecords = ~std::size_t{0});
+
+/// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
+/// `farthest`: the least i of any receiver.
+TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double farthest);
+
+}  // namespace halfshadow::outlines

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouettes of a light, sorted into vertex lists per tile of each receiver and kept in textures: what a
+/// fragment walks that gathers its casters.
+#pragma once
+
+#include <map>
+
+#include "techniques/core/technique.hpp"
+#include "techniques/parts/lists/light_loops.hpp"
+#include "techniques/parts/lists/list_textures.hpp"
+
+namespace halfshadow::techniques {
+
+/// Most tiles along a side.
+inline constexpr int kMaxTiles = 512;
+
+/// Receivers that get lists.
+enum class ListedReceivers { all, casting };
+
+/// What a technique wants in its lists.
+struct ListRequest {
+  std::span<const outlines::SubLight> subLights;  ///< each with silhouettes of its own
+  outlines::ListedEdges edges = outlines::ListedEdges::covering;
+  ListedReceivers receivers = ListedReceivers::all;
+  int tiles = 128;            ///< along the longer side of what the shadows cover, seen from the light
+  std::string_view tilesKey;  ///< the setting that says so, for messages
+};
+
+/// What shaders with list_vertices.glsl need to know of a fragment's place: the least height of a receiver;
+/// by how many steps vertices are nearer to its height than stored; by how many steps, and by what share of
+/// its (t, i), it stands off its facet.
+glm::vec4 listPlace(const LightFrame& frame, double minHeight);
+
+/// Into `texture`, made anew when the size differs. Errors: outOfMemory.
+Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture);
+
+/// The lists of one light.
+class LightLists {
+ public:
+  /// Makes anew what changed. Errors: outOfMemory (lists exceed the largest texture).
+  Status update(const LightFrame& frame, const ListRequest& request);
+  /// Silhouettes of the last update, one entry per sub-light.
+  std::span<const outlines::SubLightLoops> subLights() const { return loops_.subLights(); }
+  /// Adds textures and uniforms for a fragment shader with caster_lists.glsl. The shading refers to this
+  /// object.
+  void provide(const LightFrame& frame, ReceiverShading& shading) const;
+
+ private:
+  struct Receiver {
+    std::uint64_t revision = 0;
+    bool seenFromBehind = false, casts = false;
+    outlines::ReceiverTiles tiles;
+    outlines::TileLists lists;
+    glm::ivec2 firstTexel{0};
+  };
+
+  /// False when what bounds the tiles changed.
+  bool boundShadows(const LightFrame& frame);
+
+  LightLoops loops_;
+  outlines::NearSurfaces surfaces_;
+  std::uint64_t sceneKey_ = 0;
+  outlines::TangentRect shadows_;
+  double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers
+  double tileSize_ = 1.0;
+  int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
+  std::vector<const void*> casters_;           ///< by their geometry
+  std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
+  std::vector<const void*> encoded_;           ///< those in the textures, by address
+  gl::Texture tiles_, records_;
+};
+
+}  // namespace halfshadow::techniques

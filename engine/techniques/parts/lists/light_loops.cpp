@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/parts/lists/light_loops.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/keys.hpp"
+#include "outlines/enclosed_casters.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// A point light counts as a square this wide, in units of the distance to the nearest caster's middle. What
+/// single precision makes of a receiver's place is not much less.
+constexpr double kMinHalfLength = 2e-6;
+/// The same for half precision.
+constexpr double kMinHalfLengthOfHalves = 1e-4;
+/// In half sides of the light.
+constexpr double kNearestCut = 1e-3;
+/// Casters that lie within so much of their middle's height have it for the origin of (t, i).
+constexpr double kShallow = 0.25;
+
+/// No caster that is far away, or wide, makes this larger.
+double nearestDistance(std::span<const DrawItem> casters, const glm::dvec3& lightCenterWorld) {
+  double nearest = 1e300;
+  for (const DrawItem& caster : casters) {
+    const glm::dvec3 middle = caster.boundsWorld.center() - lightCenterWorld;
+    nearest = std::min(nearest, std::max(glm::length(middle), caster.boundsWorld.radius()));
+  }
+  return nearest;
+}
+
+outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> casters) {
+  outlines::ListSpace space(plane);
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const DrawItem& caster : casters) {
+    for (const glm::dvec3& corner : caster.boundsWorld.corners()) {
+      low = glm::min(low, plane.fromWorld(corner));
+      high = glm::max(high, plane.fromWorld(corner));
+    }
+  }
+  const glm::dvec3 middle = 0.5 * (low + high);
+  if (!(high.z - middle.z <= kShallow * middle.z)) return space;
+  space.originT = glm::dvec2(middle) / middle.z;
+  space.originI = 1.0 / middle.z;
+  return space;
+}
+}  // namespace
+
+bool LightLoops::update(const LightFrame& frame, std::span<const outlines::SubLight> subLights) {
+  const std::uint64_t key = combineKeys(frame.contentKey, frame.settings.revision());
+  if (key_ == key) return false;
+  key_ = key;
+  // A power of two: casters that move about must not change the coordinates of the others.
+  const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
+  const double share =
+      frame.capabilities.has(device::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
+  const double minHalf = share * nearestDistance(frame.casters, frame.light.centerWorld);
+  space_ = spaceOf(scene::LightPlane(frame.light, unit, minHalf), frame.casters);
+  const scene::LightPlane& plane = space_.plane;
+  minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;
+  const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
+  const std::vector<bool> enclosed = outlines::enclosedCasters(casters, frame.light);
+  std::vector<scene::PlacedCaster> shown;
+  for (std::size_t k = 0; k < casters.size(); ++k) {
+    if (!enclosed[k]) shown.push_back(casters[k]);
+  }
+  if (shown.size() < casters.size()) {
+    frame.graph.noteSkipped(std::to_string(casters.size() - shown.size()) + " casters of light " +
+                                std::to_string(frame.lightIndex),
+                            "they lie inside another caster, which hides all that they hide");
+  }
+  subLights_.clear();
+  silhouettes_.resize(subLights.size());
+  for (std::size_t i = 0; i < subLights.size(); ++i) {
+    const outlines::SubLight& subLight = subLights[i];
+    subLights_.push_back(
+        outlines::loopsOf(silhouettes_[i].update(shown, plane, subLight.center.x, subLight.center.y,
+                                                 minHeight_, scene::LayerSplit::alongside),
+                          casters, subLight, space_));
+  }
+  return true;
+}
+
+}  // namespace halfshadow::techniques

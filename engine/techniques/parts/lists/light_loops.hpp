@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Silhouettes of all casters of a light, seen from each of its sub-lights: what lists and volumes of casters
+/// are made from.
+#pragma once
+
+#include "outlines/caster_loops.hpp"
+#include "techniques/core/technique.hpp"
+
+namespace halfshadow::techniques {
+
+class LightLoops {
+ public:
+  /// True when they were found anew: light, casters or settings changed.
+  bool update(const LightFrame& frame, std::span<const outlines::SubLight> subLights);
+  const scene::LightPlane& plane() const { return space_.plane; }
+  const outlines::ListSpace& space() const { return space_; }
+  /// What is nearer to the light's plane is cut: a thousandth of the light's smaller half side.
+  double minHeight() const { return minHeight_; }
+  /// One entry per sub-light.
+  std::span<const outlines::SubLightLoops> subLights() const { return subLights_; }
+
+ private:
+  std::uint64_t key_ = 0;
+  outlines::ListSpace space_;
+  double minHeight_ = 1.0;
+  std::vector<scene::LightSilhouetteCache> silhouettes_;
+  std::vector<outlines::SubLightLoops> subLights_;
+};
+
+}  // namespace halfshadow::techniques

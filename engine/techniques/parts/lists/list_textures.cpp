@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/parts/lists/list_textures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace halfshadow::techniques {
+namespace {
+/// Widest grid plus room: tiles of several receivers stand side by side.
+constexpr int kTileImageWidth = 1024;
+
+/// Exponents of steps, as stored.
+constexpr int kExponentBias = 128;
+/// A centre is counted in so many steps.
+constexpr float kCenterSteps = 256.0f;
+/// The largest factor of a step: the square of a byte.
+constexpr float kLargestScale = 255.0f * 255.0f;
+
+/// Vertices farther from the receivers than the nearest one, as seen in i, by this factor are coded with a
+/// coarser step: what they project to is known to the same share.
+constexpr float kFineReach = 8.0f;
+/// Between steps of t and of i, where vertices are coded with coarser ones.
+constexpr float kUneven = 8.0f;
+
+struct Range {
+  glm::vec3 low{1e30f}, high{-1e30f};
+  void include(const glm::vec3& p) { low = glm::min(low, p), high = glm::max(high, p); }
+};
+
+/// How the vertices of one list are stored: about the middle of those that are not much nearer to the light
+/// than the others, so that neither far casters nor wide receivers make a near vertex coarse.
+EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) {
+  float farthest = 1e30f, nearest = -1e30f;
+  const auto isVertex = [](const outlines::ListRecord& record) {
+    return record.behindFacet == outlines::ListRecord::kVertex;
+  };
+  if (std::ranges::none_of(records, isVertex)) return {};
+  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
+    farthest = std::min(farthest, record.ti.z);
+    nearest = std::max(nearest, record.ti.z);
+  }
+  const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
+  Range fine;
+  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
+    // Receivers may stand on the facets of one-sided loops, off by no more than a step.
+    if (record.ti.z <= fineUpTo || record.oneSided) fine.include(record.ti);
+  }
+  EncodedLists::Placed placed;
+  placed.center = 0.5f * (fine.low + fine.high);
+  glm::vec3 farthestOff(0.0f);
+  for (const outlines::ListRecord& record : records | std::views::filter(isVertex))
+    farthestOff = glm::max(farthestOff, glm::abs(record.ti - placed.center));
+  glm::vec3 least = glm::max(farthestOff / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
+  // The scale of a vertex is that of its farthest coordinate: steps of the others must not be much coarser,
+  // or it must not need one.
+  const float along = std::max(least.x, least.y);
+  least.z = std::max(least.z, std::min(along / kUneven, farthestOff.z / 32766.0f));
+  for (int k = 0; k < 2; ++k)
+    least[k] = std::max(least[k], std::min(least.z / kUneven, farthestOff[k] / 32766.0f));
+  // The centre must be in reach. That step is what single precision knows of such coordinates.
+  least = glm::max(least, glm::abs(placed.center) / (32766.0f * kCenterSteps));
+  const auto stepAbove = [](float length) {
+    const int exponent = static_cast<int>(std::ceil(std::log2(std::max(length, 1e-36f))));
+    return std::exp2(static_cast<float>(std::clamp(exponent, -kExponentBias + 4, kExponentBias - 2)));
+  };
+  const float stepT = stepAbove(std::max(least.x, least.y));
+  placed.step = {stepT, stepT, stepAbove(least.z)};
+  // With eleven bits, which half precision has too; vertices are counted from there, whatever it is.
+  for (int k = 0; k < 3; ++k) {
+    const float code = std::round(placed.center[k] / (kCenterSteps * placed.step[k]));
+    const float unit =
+        std::exp2(std::max(std::ceil(std::log2(std::max(std::abs(code), 1.0f))) - 11.0f, 0.0f));
+    placed.center[k] = std::round(code / unit) * unit * kCenterSteps * placed.step[k];
+  }
+  return placed;
+}
+
+void putCode(float value, std::uint8_t* texels) {
+  const int code = static_cast<int>(std::clamp(std::round(value), -32768.0f, 32767.0f)) + 32768;
+  texels[0] = static_cast<std::uint8_t>(code >> 8);
+  texels[1] = static_cast<std::uint8_t>(code & 255);
+}
+
+void encodePlacement(const EncodedLists::Placed& placed, std::uint8_t* texels) {
+  const glm::vec3 center = placed.center / (kCenterSteps * placed.step);
+  for (int k = 0; k < 3; ++k) putCode(center[k], texels + 2 * k);
+  texels[6] = static_cast<std::uint8_t>(std::ilogb(placed.step.x) + kExponentBias);
+  texels[7] = static_cast<std::uint8_t>(std::ilogb(placed.step.z) + kExponentBias);
+}
+
+void encodeRecord(const outlines::ListRecord& record, const EncodedLists::Placed& placed,
+                  std::uint8_t* texels) {
+  const bool isVertex = record.behindFacet == outlines::ListRecord::kVertex;
+  const glm::vec3 offset =
+      isVertex ? (record.ti - placed.center) / placed.step : glm::vec3(record.behindFacet, 0.0f, 0.0f);
+  const float largest = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
+  const float scale = std::clamp(std::ceil(std::sqrt(largest / 32767.0f)), 1.0f, 255.0f);
+  for (int k = 0; k < 3; ++k) putCode(offset[k] / (scale * scale), texels + 2 * k);
+  texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
+                                        (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
+                                        (record.oneSided ? 8 : 0) | (isVertex ? 0 : 4) |
+                                        static_cast<int>(record.end));
+  texels[7] = static_cast<std::uint8_t>(scale);
+}
+
+/// Shelves: receivers side by side, a new row of them where the image ends.
+ListImage placeTiles(std::span<const ReceiverLists> receivers, std::vector<glm::ivec2>& firstTexel) {
+  int x = 0, y = 0, shelf = 0;
+  for (const ReceiverLists& receiver : receivers) {
+    if (x + receiver.columns > kTileImageWidth) {
+      x = 0;
+      y += shelf;
+      shelf = 0;
+    }
+    firstTexel.emplace_back(x, y);
+    x += receiver.columns;
+    shelf = std::max(shelf, receiver.rows);
+  }
+  ListImage image{.width = kTileImageWidth, .height = std::max(y + shelf, 1)};
+  image.rgba.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
+  return image;
+}
+}  // namespace
+
+bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedLists& result) {
+  result = {};
+  std::size_t recordCount = 0;
+  for (const ReceiverLists& receiver : receivers) {
+    recordCount += receiver.lists->records.size();
+    for (const outlines::TileList& list : receiver.lists->tiles) recordCount += list.count > 0;
+  }
+  const std::size_t rows = std::max<std::size_t>((recordCount + kRecordsPerRow - 1) / kRecordsPerRow, 1);
+  if (rows > static_cast<std::size_t>(maxRows)) return false;
+  result.rows = rows;
+  // Rows grow in powers of two, so that the texture seldom changes its size.
+  std::size_t height = 1;
+  while (height < rows) height *= 2;
+  result.records = {.width = 2 * kRecordsPerRow,
+                    .height = static_cast<int>(std::min(height, static_cast<std::size_t>(maxRows)))};
+  result.records.rgba.resize(static_cast<std::size_t>(result.records.width) *
+                             static_cast<std::size_t>(result.records.height) * 4);
+  result.tiles = placeTiles(receivers, result.firstTexel);
+  std::size_t next = 0;
+  for (std::size_t r = 0; r < receivers.size(); ++r) {
+    const ReceiverLists& receiver = receivers[r];
+    for (std::size_t t = 0; t < receiver.lists->tiles.size(); ++t) {
+      const outlines::TileList& list = receiver.lists->tiles[t];
+      const std::size_t x =
+          static_cast<std::size_t>(result.firstTexel[r].x) + t % std::size_t(receiver.columns);
+      const std::size_t y =
+          static_cast<std::size_t>(result.firstTexel[r].y) + t / std::size_t(receiver.columns);
+      std::uint8_t* texel = &result.tiles.rgba[(y * std::size_t(kTileImageWidth) + x) * 4];
+      texel[0] = static_cast<std::uint8_t>(next % kRecordsPerRow);
+      texel[1] = static_cast<std::uint8_t>(next / kRecordsPerRow & 255);
+      texel[2] = static_cast<std::uint8_t>(next / kRecordsPerRow >> 8);
+      texel[3] = static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) |
+                                           (list.apart ? 32 : 0) | (list.amongReceivers ? 64 : 0));
+      EncodedLists::Placed& placed = result.lists.emplace_back();
+      if (list.count == 0) continue;
+      const auto records = std::span(receiver.lists->records).subspan(list.first, list.count);
+      placed = placementOf(records);
+      placed.firstRecord = static_cast<std::uint32_t>(next);
+      encodePlacement(placed, &result.records.rgba[next++ * 8]);
+      for (const outlines::ListRecord& record : records) {
+        encodeRecord(record, placed, &result.records.rgba[next++ * 8]);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Lists for the surfaces of casters that are not convex, where a technique else draws on the screen what
+/// silhouettes cover: among a caster's own surfaces that says nothing (see near_surface.hpp).
+#pragma once
+
+#include <string_view>
+
+#include "techniques/parts/lists/light_lists.hpp"
+
+namespace halfshadow::techniques {
+
+/// Which casters' own surfaces need lists.
+enum class OwnSurfaces {
+  hollow,  ///< those that are not convex
+  all      ///< a silhouette is that of one point of the light, and own facets know all others
+};
+
+/// Makes casting receivers of `shading` walk lists, for a fragment file that does so with
+/// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them, or with an error. `tilesKey`:
+/// the setting that holds the number of tiles. `subLights`: those of the fragment file. Errors: those of
+/// `shading`, outOfMemory (lists exceed the largest texture).
+Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
+                                         LightLists& lists, std::string_view tilesKey,
+                                         std::span<const outlines::SubLight> subLights, OwnSurfaces which);
+
+}  // namespace halfshadow::techniques

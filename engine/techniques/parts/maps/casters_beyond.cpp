@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+#include <cmath>
+
+#include "techniques/parts/maps/light_blocks.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// More vertices are not looked at: floors have few.
+constexpr std::size_t kMostVertices = 64;
+/// Rounding of a place that was computed in single precision, relative to its coordinates: casters that stand
+/// on a floor do not reach through it.
+constexpr double kRounding = 1.0 / (1 << 20);
+
+double largestCoordinate(const glm::dvec3& point) {
+  return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
+}
+
+struct Plane {
+  glm::dvec3 normal{0.0};  ///< unit length, towards the light; zero: none
+  glm::dvec3 point{0.0};
+
+  /// Positive on the light's side, zero within rounding.
+  double side(const glm::dvec3& at) const {
+    const double height = glm::dot(normal, at - point);
+    return std::abs(height) <= kRounding * (largestCoordinate(at) + largestCoordinate(point)) ? 0.0 : height;
+  }
+};
+
+/// Of the first triangle that has an area, turned to the light, when all vertices lie in it.
+Plane planeOf(const DrawItem& receiver, const glm::dvec3& lightWorld) {
+  const scene::TriangleMesh& mesh = *receiver.sourceMesh;
+  if (mesh.positions.size() > kMostVertices) return {};
+  const auto place = [&](std::uint32_t index) {
+    return glm::dvec3(receiver.worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[index]), 1.0));
+  };
+  Plane plane;
+  for (std::size_t i = 0; i + 2 < mesh.indices.size() && plane.normal == glm::dvec3(0.0); i += 3) {
+    const glm::dvec3 a = place(mesh.indices[i]);
+    const glm::dvec3 cross = glm::cross(place(mesh.indices[i + 1]) - a, place(mesh.indices[i + 2]) - a);
+    if (glm::length(cross) > 0.0) plane = {glm::normalize(cross), a};
+  }
+  if (glm::dot(plane.normal, lightWorld - plane.point) < 0.0) plane.normal = -plane.normal;
+  for (std::uint32_t i = 0; i < mesh.positions.size(); ++i) {
+    if (plane.side(place(i)) != 0.0) return {};
+  }
+  return plane;
+}
+}  // namespace
+
+bool mayHaveCastersBeyond(const LightFrame& frame, const DrawItem& receiver) {
+  if (receiver.sourceMesh == nullptr) return true;
+  const Plane plane = planeOf(receiver, frame.light.centerWorld);
+  if (plane.normal == glm::dvec3(0.0)) return true;
+  return std::ranges::any_of(frame.casters, [&](const DrawItem& caster) {
+    const auto corners = caster.boundsWorld.corners();
+    return std::ranges::any_of(corners, [&](const glm::dvec3& corner) { return plane.side(corner) < 0.0; });
+  });
+}
+
+void addSelfReceiverSearch(const LightFrame& frame, ReceiverShading& shading) {
+  shading.defines.push_back("HS_SEARCH 5");
+  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+  for (const DrawItem& receiver : frame.receivers) {
+    if (!receiver.casts && mayHaveCastersBeyond(frame, receiver))
+      shading.alsoCasting.push_back(receiver.mesh);
+  }
+}
+
+}  // namespace halfshadow::techniques

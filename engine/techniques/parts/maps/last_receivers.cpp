@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/parts/maps/last_receivers.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <unordered_set>
+
+#include "base/keys.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Share of the map from which on a caster counts as a ground: smaller ones cost as little as they change.
+constexpr double kLeastShare = 1.0 / 16.0;
+
+/// A box as the light's centre sees it: tangents and distances along the axis.
+struct SeenBox {
+  glm::dvec3 low{std::numeric_limits<double>::infinity()}, high{-std::numeric_limits<double>::infinity()};
+};
+
+SeenBox seenBox(const planner::LightFit& fit, const scene::Bounds& boundsWorld) {
+  SeenBox seen;
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::dvec3 world(corner & 1 ? boundsWorld.high.x : boundsWorld.low.x,
+                           corner & 2 ? boundsWorld.high.y : boundsWorld.low.y,
+                           corner & 4 ? boundsWorld.high.z : boundsWorld.low.z);
+    const glm::dvec3 p = glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0));
+    // What reaches behind the near plane may be seen in any direction.
+    const double z = std::max(p.z, fit.nearDistance);
+    const glm::dvec3 at(p.x / z, p.y / z, p.z);
+    seen.low = glm::min(seen.low, at);
+    seen.high = glm::max(seen.high, at);
+  }
+  return seen;
+}
+
+bool isBefore(const SeenBox& caster, const SeenBox& ground) {
+  const bool inside = caster.low.x > ground.low.x && caster.low.y > ground.low.y &&
+                      caster.high.x < ground.high.x && caster.high.y < ground.high.y;
+  return inside && caster.low.z < ground.high.z;
+}
+
+/// Seen over a part of the map that other casters can lie before.
+bool isLarge(const SeenBox& seen, const planner::LightFit& fit) {
+  const glm::dvec2 extent =
+      glm::min(glm::dvec2(seen.high), fit.tangentHigh) - glm::max(glm::dvec2(seen.low), fit.tangentLow);
+  const glm::dvec2 map = fit.tangentHigh - fit.tangentLow;
+  return extent.x > 0.0 && extent.y > 0.0 && extent.x * extent.y >= kLeastShare * map.x * map.y;
+}
+}  // namespace
+
+LastReceivers lastReceivers(const LightFrame& frame) {
+  LastReceivers last;
+  std::vector<SeenBox> seen;
+  std::unordered_set<const GpuMesh*> listed;
+  for (const DrawItem& caster : frame.casters) {
+    seen.push_back(seenBox(frame.fit, caster.boundsWorld));
+    listed.insert(caster.mesh);
+  }
+  for (std::size_t i = 0; i < frame.casters.size(); ++i) {
+    const DrawItem& caster = frame.casters[i];
+    // From within, the faces that face the light are a roof, behind which others receive.
+    const bool seenFromWithin =
+        hiddenFaces(caster, frame.view.eyeWorld, frame.view.nearReach) == gl::Cull::none;
+    const bool ground =
+        caster.receives && isLarge(seen[i], frame.fit) &&
+        (!caster.closed || (!seenFromWithin && std::ranges::any_of(seen, [&](const SeenBox& other) {
+          return isBefore(other, seen[i]);
+        })));
+    (ground ? last.drawn : last.infinite).push_back(caster);
+    last.empty = last.empty && !ground;
+  }
+  if (last.empty) return last;
+  const auto add = [&](const DrawItem& item) {
+    if (listed.insert(item.mesh).second) last.drawn.push_back(item);
+  };
+  for (const DrawItem& item : frame.shadowlessReceivers) add(item);
+  // Casters that were dropped, since they shadow nothing, receive all the same.
+  for (const DrawItem& item : frame.receivers) {
+    if (item.casts) add(item);
+  }
+  last.contentKey = frame.contentKey;
+  for (const auto* list : {&last.drawn, &last.infinite}) {
+    for (const DrawItem& item : *list) last.contentKey = combineKeys(last.contentKey, item.revision);
+    last.contentKey = combineKeys(last.contentKey, list->size());
+  }
+  return last;
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+#include <cmath>
+
+#include "base/keys.hpp"
+#include "techniques/parts/maps/level_atlas.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// Blocks of the second source image are this much larger.
+constexpr int kReduction = 8;
+/// Blocks per side of the finest level at most: finer ones bound no penumbra more tightly that is wide enough
+/// to need a filter.
+constexpr int kMostBlocks = 128;
+/// Blocks that a level reaches beyond its own: the answer holds what lies 1 to 2.5 times as far as was asked.
+constexpr int kReachBlocks = 4;
+}  // namespace
+
+Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const LightDepth& depth) {
+  PenumbraBounds bounds;
+  const int mapSize = depth.space.mapSize;
+  while (bounds.blockTexels * kMostBlocks < mapSize) bounds.blockTexels *= 2;
+  LevelAtlas atlas;
+  while (atlas.finestSide * bounds.blockTexels < mapSize) atlas.finestSide *= 2;
+  // The coarsest level's reach is the whole map.
+  while (atlas.side(atlas.lastLevel) > kReachBlocks + 1) ++atlas.lastLevel;
+  bounds.blocks = atlas.finestSide;
+  bounds.lastLevel = atlas.lastLevel;
+
+  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " penumbra bounds ";
+  const auto persistent = [&](const std::string& name, int width, int height) {
+    return frame.graph.addResource({.name = prefix + name,
+                                    .width = width,
+                                    .height = height,
+                                    .lifetime = framegraph::Lifetime::persistent});
+  };
+  framegraph::ResourceId source = depth.map;
+  int sourceSize = mapSize, factor = bounds.blockTexels;
+  std::vector<LevelImage> images;
+  for (int size = bounds.blocks; size >= 2 && images.size() < 2; size /= kReduction) {
+    auto defines = depthDefines(depth.storage);
+    defines.push_back("HS_FACTOR " + std::to_string(factor));
+    if (images.empty()) defines.push_back("HS_FROM_DEPTH");
+    auto program = frame.programs.get({"screen/fullscreen.vert", "map/block_bounds.frag", defines});
+    if (!program) return program.error();
+    const auto target = persistent(std::to_string(size), size, size);
+    addFilterPass(frame.graph, {.name = prefix + std::to_string(size),
+                                .program = *program,
+                                .source = source,
+                                .target = target,
+                                .sourceSize = sourceSize,
+                                .targetSize = size,
+                                .contentKey = combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
+                                .sampler = "u_source"});
+    images.push_back({target, size, size, {0, 0, size, size}});
+    source = target;
+    sourceSize = size;
+    factor = kReduction;
+  }
+
+  // Along one axis, then along the other.
+  const auto rows = persistent("rows", atlas.width(), atlas.height());
+  bounds.atlas = persistent("levels", atlas.width(), atlas.height());
+  std::vector<LevelDraw> rowDraws, levelDraws;
+  auto both = frame.programs.get(
+      {"screen/fullscreen.vert", "map/block_dilate.frag", dilationDefines(0, kReachBlocks, 1)});
+  if (!both) return both.error();
+  for (int level = 0; level <= atlas.lastLevel; ++level) {
+    const int side = atlas.side(level);
+    const LevelImage& image = images.back().imageWidth >= side ? images.back() : images.front();
+    auto program = frame.programs.get({"screen/fullscreen.vert", "map/block_dilate.frag",
+                                       dilationDefines(kReachBlocks, 0, image.imageWidth / side)});
+    if (!program) return program.error();
+    rowDraws.push_back({*program, image, atlas.rect(level)});
+    levelDraws.push_back(
+        {*both, {rows, atlas.width(), atlas.height(), atlas.rect(level)}, atlas.rect(level)});
+  }
+  addLevelPass(frame.graph, prefix + "rows", rows, std::move(rowDraws),
+               combineKeys(depth.contentKey, 0xb0bd0u));
+  addLevelPass(frame.graph, prefix + "levels", bounds.atlas, std::move(levelDraws),
+               combineKeys(depth.contentKey, 0xb0bd1u));
+  return bounds;
+}
+
+Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
+  auto bounds = declarePenumbraBounds(frame, depth);
+  if (!bounds) return bounds.error();
+  shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds->atlas});
+  const MapSpace& space = depth.space;
+  // Half of the narrowest kernel and half a texel to its tap's centre; without highp a fragment's own place
+  // is off by up to a texel.
+  const double slack = depth.storage == DepthStorage::packed16 ? 2.0 : 1.0;
+  const double texelsPerBlock = bounds->blockTexels;
+  const glm::vec4 uniform(bounds->blocks, 1.0 / (texelsPerBlock * bounds->blocks), bounds->lastLevel, slack);
+  const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
+                           space.nearestCasterDepth * space.depthUnit, 1.0 / (texelsPerBlock * kReachBlocks));
+  shading.setUniforms = [uniform, penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
+                                                                                    gl::Context& context) {
+    inner(program, context);
+    program.set(context, "u_bounds", uniform);
+    program.set(context, "u_penumbra", penumbra);
+  };
+  shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
+  return {};
+}
+
+double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
+  const double farthest =
+      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+  return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
+         (farthest - space.nearestCasterDepth);
+}
+
+}  // namespace halfshadow::techniques

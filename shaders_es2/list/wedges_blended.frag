@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Forest's blending of penumbrae, gathered: caster by caster the occluded share, rectangle and centre of gravity of
+// each quadrant, merged into those of the casters before. Both vBuffers are registers.
+// Based on: Forest, Barthe, Paulin 2006, section 3.
+#include "receiver/tap_count.glsl"
+#include "list/vbuffer_edges.glsl"
+#include "list/vbuffer_merge.glsl"
+#include "list/list_vertices.glsl"
+#define HS_SUB_LIGHTS 1.0
+#include "list/caster_lists.glsl"
+#include "list/vbuffer_walk.glsl"
+
+float halfshadow_class() {
+  hs_findList();
+  return hs_listed ? -1.0 : hs_lit;
+}
+
+#ifndef HS_CASTING_RECEIVER
+// Nothing to blend where no casters overlap: their shares of the whole light.
+HS_HIGHP float hs_sumOfShares(HS_HIGHP vec2 at, HS_HIGHP vec3 origin) {
+  HS_HIGHP float share = 0.0;
+  HS_HIGHP vec2 last = vec2(0.0);
+  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+    if (!hs_apart) break;
+    HS_Tags tags;
+    HS_HIGHP vec2 point = hs_onLight(hs_nextVertex(at, origin, tags));
+    share += hs_edgeShare(mix(last, point, tags.starts), point);
+    last = point;
+    if (tags.ends > 2.5) break;
+  }
+  return clamp(share, 0.0, 1.0);
+}
+
+HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
+  HS_Occlusion all = hs_nothing();
+  HS_HIGHP float ends = listed ? 0.0 : 3.0;
+  for (int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
+    if (ends > 2.5) break;
+    HS_Sums sums;
+    hs_clearSums(sums);
+    HS_Walk walk;
+    hs_startWalk(walk);
+    for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+      HS_Tags tags;
+      HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
+      ends = tags.ends;
+      hs_walk(walk, sums, projected, tags);
+      if (ends > 0.5) break;
+    }
+    all = hs_merge(all, hs_occlusion(sums));
+  }
+  return all;
+}
+#endif
+
+#ifdef HS_CUTS
+HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed, HS_Occlusion all) {
+  HS_HIGHP float ends = listed ? 0.0 : 3.0;
+  for (int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
+    if (ends > 2.5) break;
+    HS_Sums sums;
+    hs_clearSums(sums);
+    HS_CutWalk walk;
+    hs_startCutWalk(walk);
+    for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+      HS_Tags tags;
+      HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
+      ends = tags.ends;
+      hs_cutWalk(walk, sums, projected, tags);
+      if (ends > 0.5) break;
+    }
+    all = hs_merge(all, hs_occlusion(sums));
+  }
+  return all;
+}
+#endif
+
+float halfshadow_visibility() {
+  hs_findList();
+  HS_HIGHP vec2 at;
+  HS_HIGHP vec3 origin = hs_enterList(at);
+  HS_HIGHP float lit = hs_lit;
+#ifdef HS_CASTING_RECEIVER
+  bool blended = hs_listed;
+  HS_Occlusion all = hs_blendedAmong(at, origin, blended, hs_nothing());
+#else
+  HS_HIGHP float sumOfShares = hs_sumOfShares(at, origin);
+  if (hs_apart) lit = 1.0 - sumOfShares;
+  bool blended = hs_listed && !hs_apart;
+#ifdef HS_AMONG_RECEIVERS
+  HS_Occlusion all = hs_blended(at, origin, blended && !hs_among);
+  all = hs_blendedAmong(at, origin, hs_among, all);
+#else
+  HS_Occlusion all = hs_blended(at, origin, blended);
+#endif
+#endif
+  return blended ? 1.0 - dot(all.share, vec4(0.25)) : lit;
+}
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"

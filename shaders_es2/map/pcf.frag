@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "receiver/tap_count.glsl"
+#include "map/depth_storage.glsl"
+#include "receiver/receiver_inputs.glsl"
+#include "map/shadow_tap.glsl"
+#ifdef HS_POISSON_COUNT
+#include "map/kernel_poisson.glsl"
+#define hs_pcf hs_pcfPoisson
+#else
+#include "map/kernel_grid.glsl"
+#define hs_pcf hs_pcfGrid
+#endif
+float halfshadow_visibility() {
+  hs_prepare();
+  return hs_lightMisses ? 1.0 : hs_pcf();
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"
+#endif

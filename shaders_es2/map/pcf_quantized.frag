@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Variable penumbrae by bands of the penumbra's width W in texels: the mean blocker of the neighbourhood gives W,
+// W falls into one of few bands, each band has one kernel, spread over the band's width.
+// Based on: Evans, Agenjo, Blat 2014, section 4.4, with widths in reciprocal depth instead of edge strengths.
+#include "receiver/tap_count.glsl"
+#include "map/depth_storage.glsl"
+#include "receiver/receiver_inputs.glsl"
+#include "map/shadow_tap.glsl"
+#include "map/kernel_spread.glsl"
+#include "map/penumbra_bounds.glsl"
+#include "map/occupancy_storage.glsl"
+#include "map/blocker_pyramid.glsl"
+#ifdef HS_CASTING_RECEIVER
+#include "map/blocker_search.glsl"
+#endif
+uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band
+uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
+
+// Sides of the receiver's band in texels, or -1: lit.
+HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
+  side = 1.0;
+  HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
+#ifdef HS_CASTING_RECEIVER
+  // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
+  HS_HIGHP vec2 found = hs_searchBlockers();
+  if (found.x <= 0.0) return vec2(-1.0);
+  HS_HIGHP float width = widest * found.y;
+#else
+  HS_HIGHP float width = widest * hs_meanGap();
+  if (width < 0.0) return vec2(-1.0);
+#endif
+  HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
+  width = exp2(u_bands.x + band / u_bands.y);
+  // A texel a tap: more taps than that read the same texels again.
+  side = width < u_kernels.x ? u_kernels.x : (width < u_kernels.y ? u_kernels.y : u_kernels.z);
+  return u_penumbra.xy * (width / widest);
+}
+
+float halfshadow_class() {
+  hs_prepare();
+  return hs_maskClass();
+}
+
+float halfshadow_visibility() {
+  hs_prepare();
+  float known = hs_maskClass();
+  if (known > -0.5) return known;
+  HS_HIGHP float side;
+  HS_HIGHP vec2 width = hs_bandWidth(side);
+  if (width.x < 0.0) return 1.0;
+  HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
+  return hs_spreadSum(max(width, vec2(1.0)), side, bias);
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"
+#endif

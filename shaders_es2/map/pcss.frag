@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Percentage closer soft shadows: a blocker search over the region that could hold blockers, the penumbra's
+// width from similar triangles in reciprocal depth, a filter of that width.
+// Based on: Fernando, "Percentage-Closer Soft Shadows", 2005.
+#include "receiver/tap_count.glsl"
+#include "map/depth_storage.glsl"
+#include "receiver/receiver_inputs.glsl"
+#include "map/shadow_tap.glsl"
+#include "map/kernel_spread.glsl"
+#include "map/penumbra_bounds.glsl"
+#include "map/blocker_search.glsl"
+
+float halfshadow_class() {
+  hs_prepare();
+  return hs_maskClass();
+}
+
+float halfshadow_visibility() {
+  hs_prepare();
+  float known = hs_maskClass();
+  if (known > -0.5) return known;
+  HS_HIGHP vec2 found = hs_searchBlockers();
+  if (found.x <= 0.0) return 1.0;
+  if (found.x >= 1.0) return 0.0;
+  return hs_pcfSpread(max(u_penumbra.xy * found.y, vec2(1.0)));
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"
+#endif

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Share of the light that no slice covers.
+// Based on: Eisemann, Decoret, "Plausible Image Based Soft Shadows Using Occlusion Textures", 2006, section 3;
+// HS_SLICE_DEPTH departs from it: slices hold what the light's centre sees, with its mean depth.
+#include "receiver/tap_count.glsl"
+#include "occlusion/occlusion_filter.glsl"
+varying HS_HIGHP vec4 v_map;               // see SliceSpace::mapFromWorld
+// x: nearer border, y: farther border, z: 1 / thickness, w: the share of it that an occluder must be nearer than a
+// receiver, and over which its shadow then fades in
+uniform HS_HIGHP vec4 u_slices[HS_SLOTS];
+uniform HS_HIGHP vec4 u_slicePlace;  // xy: place of the light's axis; ratio on plane s = z + s w
+uniform HS_HIGHP vec4 u_sliceOwn;    // own s = v_map.z / (x v_map.w + y); z: frustum's side, see SliceSpace::sideScale
+uniform HS_HIGHP sampler2D u_occlusion0;
+#if HS_TEXTURES > 1
+uniform HS_HIGHP sampler2D u_occlusion1;
+#endif
+#if HS_TEXTURES > 2
+uniform HS_HIGHP sampler2D u_occlusion2;
+#endif
+#if HS_TEXTURES > 3
+uniform HS_HIGHP sampler2D u_occlusion3;
+#endif
+#if HS_TEXTURES > 4
+uniform HS_HIGHP sampler2D u_occlusion4;
+#endif
+#if HS_TEXTURES > 5
+uniform HS_HIGHP sampler2D u_occlusion5;
+#endif
+#if HS_TEXTURES > 6
+uniform HS_HIGHP sampler2D u_occlusion6;
+#endif
+#if HS_TEXTURES > 7
+uniform HS_HIGHP sampler2D u_occlusion7;
+#endif
+
+HS_HIGHP vec2 hs_direction;
+HS_HIGHP float hs_own;
+HS_HIGHP float hs_sidePerSlice;
+// May the receiver's own surface be in the slices? Else all that is not clearly behind it shadows it, up to where
+// they touch.
+bool hs_ownInSlices = false;
+#ifdef HS_LAST_RECEIVERS
+uniform HS_HIGHP sampler2D u_lastReceivers;
+uniform HS_HIGHP vec4 u_lastRange;  // x: slice units of depth 1, y: slice units that a last receiver is off by
+
+// Is this surface the last one here, and so in no slice? Seen along the line to the centre of projection.
+bool hs_isLast() {
+  HS_COUNT(1);
+  HS_HIGHP vec2 place = u_slicePlace.xy + hs_direction * (u_slicePlace.z + hs_own * u_slicePlace.w);
+  HS_HIGHP vec3 bytes = floor(texture2D(u_lastReceivers, place).rgb * 255.0 + 0.5);
+  HS_HIGHP float last = dot(bytes, vec3(65536.0, 256.0, 1.0)) * (u_lastRange.x / 16777215.0);
+  return hs_own > last - u_lastRange.y;
+}
+#endif
+float hs_visible = 1.0;
+
+// Where the light's frustum meets plane s, in texels: its middle and its side.
+HS_HIGHP vec2 hs_middle(HS_HIGHP float s) {
+  return (u_slicePlace.xy + hs_direction * (u_slicePlace.z + s * u_slicePlace.w)) * u_occlusionLayout.x;
+}
+HS_HIGHP float hs_side(HS_HIGHP float s) { return max((hs_own - s) * hs_sidePerSlice, 0.0); }
+
+void hs_combine(float covered) {
+#if defined(HS_COMBINE_PRODUCT)
+  hs_visible *= 1.0 - covered;
+#elif defined(HS_COMBINE_MAX)
+  hs_visible = min(hs_visible, 1.0 - covered);
+#else
+  hs_visible -= covered;
+#endif
+}
+
+#ifdef HS_SLICE_DEPTH
+HS_HIGHP float hs_meanPlane(vec2 covered, HS_HIGHP vec4 slice) {
+  return mix(slice.x, slice.y, clamp(covered.y / max(covered.x, 1.0 / 255.0), 0.0, 1.0));
+}
+// First over the slice's middle plane; then again over the plane where the occluders are found to lie.
+void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) {
+  if (hs_own > slice.x) {
+    HS_HIGHP float plane = min(0.5 * (slice.x + slice.y), hs_own);
+    vec2 covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
+    if (covered.x > 0.5 / 255.0) {
+      plane = min(hs_meanPlane(covered, slice), hs_own);
+      covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
+      HS_HIGHP float before = (hs_own - hs_meanPlane(covered, slice)) * slice.z;
+      // A step of the mean depth is 1/255.
+      hs_combine(covered.x * clamp(hs_ownInSlices ? before / slice.w - 1.0 : 128.0 * before + 1.0, 0.0, 1.0));
+    }
+  }
+}
+#else
+// The slice that contains the receiver fades in between its two borders.
+void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice) {
+  if (hs_own > slice.x) {
+    float fade = clamp((hs_own - slice.x) * slice.z, 0.0, 1.0);
+    HS_HIGHP float plane = min(slice.y, hs_own);
+    hs_combine(hs_channelMean(occlusion, channel, hs_middle(plane), hs_side(plane)) * fade);
+  }
+}
+#endif
+
+float halfshadow_visibility() {
+  // Nearer to the light than every caster, or behind the light.
+  if (v_map.z <= 0.0 || v_map.w <= 0.0) return 1.0;
+  HS_HIGHP float inverseDistance = 1.0 / v_map.w;
+  HS_HIGHP float divisor = u_sliceOwn.x * v_map.w + u_sliceOwn.y;
+  hs_direction = v_map.xy * inverseDistance;
+  hs_own = v_map.z / divisor;
+  hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  hs_ownInSlices = true;
+#ifdef HS_LAST_RECEIVERS
+  hs_ownInSlices = !hs_isLast();
+#endif
+#endif
+#ifdef HS_CONCENTRIC
+  // Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
+  // beyond the map see the whole light without a fetch.
+  HS_HIGHP vec2 beyond = abs(hs_middle(0.0) - 0.5 * u_occlusionLayout.x) - 0.5 * (u_occlusionLayout.x + hs_side(0.0) * u_kernelShape.xy);
+  if (max(beyond.x, beyond.y) > 0.0) return 1.0;
+#endif
+#ifdef HS_SLICE_DEPTH
+  hs_addSlice(u_occlusion0, 0.0, u_slices[0]);
+  hs_addSlice(u_occlusion0, 1.0, u_slices[1]);
+#else
+  hs_addSlice(u_occlusion0, vec2(0.0, 0.0), u_slices[0]);
+  hs_addSlice(u_occlusion0, vec2(1.0, 0.0), u_slices[1]);
+  hs_addSlice(u_occlusion0, vec2(0.0, 1.0), u_slices[2]);
+  hs_addSlice(u_occlusion0, vec2(1.0, 1.0), u_slices[3]);
+#endif
+#if HS_TEXTURES > 1
+#ifdef HS_SLICE_DEPTH
+  hs_addSlice(u_occlusion1, 0.0, u_slices[2]);
+  hs_addSlice(u_occlusion1, 1.0, u_slices[3]);
+#else
+  hs_addSlice(u_occlusion1, vec2(0.0, 0.0), u_slices[4]);
+  hs_addSlice(u_occlusion1, vec2(1.0, 0.0), u_slices[5]);
+  hs_addSlice(u_occlusion1, vec2(0.0, 1.0), u_slices[6]);
+  hs_addSlice(u_occlusion1, vec2(1.0, 1.0), u_slices[7]);
+#endif
+#endif
+#if HS_TEXTURES > 2
+#ifdef HS_SLICE_DEPTH
+  hs_addSlice(u_occlusion2, 0.0, u_slices[4]);
+  hs_addSlice(u_occlusion2, 1.0, u_slices[5]);
+#else
+  hs_addSlice(u_occlusion2, vec2(0.0, 0.0), u_slices[8]);
+  hs_addSlice(u_occlusion2, vec2(1.0, 0.0), u_slices[9]);
+  hs_addSlice(u_occlusion2, vec2(0.0, 1.0), u_slices[10]);
+  hs_addSlice(u_occlusion2, vec2(1.0, 1.0), u_slices[11]);
+#endif
+#endif
+#if HS_TEXTURES > 3
+#ifdef HS_SLICE_DEPTH
+  hs_addSlice(u_occlusion3, 0.0, u_slices[6]);
+  hs_addSlice(u_occlusion3, 1.0, u_slices[7]);
+#else
+  hs_addSlice(u_occlusion3, vec2(0.0, 0.0), u_slices[12]);
+  hs_addSlice(u_occlusion3, vec2(1.0, 0.0), u_slices[13]);
+  hs_addSlice(u_occlusion3, vec2(0.0, 1.0), u_slices[14]);
+  hs_addSlice(u_occlusion3, vec2(1.0, 1.0), u_slices[15]);
+#endif
+#endif
+#if HS_TEXTURES > 4
+  hs_addSlice(u_occlusion4, 0.0, u_slices[8]);
+  hs_addSlice(u_occlusion4, 1.0, u_slices[9]);
+#endif
+#if HS_TEXTURES > 5
+  hs_addSlice(u_occlusion5, 0.0, u_slices[10]);
+  hs_addSlice(u_occlusion5, 1.0, u_slices[11]);
+#endif
+#if HS_TEXTURES > 6
+  hs_addSlice(u_occlusion6, 0.0, u_slices[12]);
+  hs_addSlice(u_occlusion6, 1.0, u_slices[13]);
+#endif
+#if HS_TEXTURES > 7
+  hs_addSlice(u_occlusion7, 0.0, u_slices[14]);
+  hs_addSlice(u_occlusion7, 1.0, u_slices[15]);
+#endif
+  return clamp(hs_visible, 0.0, 1.0);
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"
+#endif

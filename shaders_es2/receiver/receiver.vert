@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Receivers as the camera sees them, with their place in the light's map.
+#include "receiver/receiver_vertex.glsl"
+attribute highp vec3 a_position;
+uniform highp mat4 u_clipFromObject;
+#if defined(HS_FACET_NORMAL) || defined(HS_SHADED)
+attribute highp vec3 a_normal;
+#endif
+#ifdef HS_SHADED
+attribute highp vec2 a_texcoord;
+uniform highp mat4 u_shadeFromObject;  // relative to the light's centre, world axes
+uniform highp mat3 u_worldNormalFromObject;
+varying highp vec3 v_shadePosition;
+varying highp vec3 v_shadeNormal;
+varying highp vec2 v_texcoord;
+#endif
+invariant gl_Position;
+
+void main() {
+  highp vec4 position = vec4(a_position, 1.0);
+  gl_Position = u_clipFromObject * position;
+#ifdef HS_FACET_NORMAL
+  halfshadow_receive(position, a_normal);
+#else
+  halfshadow_receive(position, vec3(0.0));
+#endif
+#ifdef HS_SHADED
+  v_shadePosition = (u_shadeFromObject * position).xyz;
+  v_shadeNormal = u_worldNormalFromObject * a_normal;
+  v_texcoord = a_texcoord;
+#endif
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Penumbrae from the distance to the nearest silhouette. HS_PAPER: inside the hard shadow only, by the paper's
+// attenuation of shadow depth and shadow width; else on both sides, by the exact profile of a square light.
+// Based on: Kirsch, Doellner, "Real-Time Soft Shadows Using a Single Light Sample", 2003, section 3; both sides of
+// the silhouette and the widths from the light's size: Halfshadow.
+#include "receiver/tap_count.glsl"
+#include "map/depth_storage.glsl"
+#include "receiver/receiver_inputs.glsl"
+#include "map/shadow_tap.glsl"
+
+#ifdef HS_POINT_LIGHT
+float hs_visibility() { return hs_hardTap(); }
+#elif defined(HS_PAPER)
+uniform HS_HIGHP sampler2D u_widthMap;
+uniform HS_HIGHP vec4 u_attenuation;  // x: near distance / distance at shadow depth 1, y: c_scale, z: 1 + c_bias, w: depth units
+#ifdef HS_ATTENUATION_TEXTURE
+uniform HS_HIGHP sampler2D u_attenuationMap;
+#endif
+
+float hs_visibility() {
+  HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
+  HS_HIGHP vec4 stored = texture2D(u_depthMap, center * u_map.y);
+  HS_COUNT(1);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float gap = hs_gap(stored, hs_receiver);
+  HS_HIGHP float shadowWidth = texture2D(u_widthMap, hs_texel * u_map.y).r;
+  HS_COUNT(1);
+  if (gap >= min(dot(hs_gradient, center - hs_texel), 0.0) - u_bias.x - u_bias.y * slope) return 1.0;
+  // Distances along the light's axis: near / (1 - d), with both d in depth units.
+  HS_HIGHP float receiverShare = 1.0 - hs_receiverValue / u_attenuation.w;
+  HS_HIGHP float blockerShare = receiverShare - gap / u_attenuation.w;
+  HS_HIGHP float shadowDepth = u_attenuation.x * (-gap / u_attenuation.w) / (receiverShare * blockerShare);
+#ifdef HS_ATTENUATION_TEXTURE
+  HS_COUNT(1);
+  return texture2D(u_attenuationMap, (clamp(vec2(shadowDepth, shadowWidth), 0.0, 1.0) * 255.0 + 0.5) * (1.0 / 256.0)).r;
+#else
+  return clamp(u_attenuation.z - u_attenuation.y * shadowWidth / max(shadowDepth, 1e-4), 0.0, 1.0);
+#endif
+}
+#else
+#ifdef HS_CORNERS
+#include "width/width_boxes.glsl"
+#endif
+#include "width/width_distance.glsl"
+uniform HS_HIGHP sampler2D u_widthMap;
+#ifndef HS_CORNERS
+uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
+#endif
+uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels of the width map per depth texel, z: margin in texels
+uniform HS_HIGHP vec4 u_widthRange;   // x: largest distance, y: knee of the storage, zw: kernel in texels per unit of depth
+// x: the nearest caster's distance beyond the near distance, in units of it, y: range of casters' distances, z: 1 / depth texels per texel,
+// w: depth units
+uniform HS_HIGHP vec4 u_casterDepth;
+
+HS_HIGHP float hs_casterDepth(HS_HIGHP float normalisedDistance) {
+  HS_HIGHP float distance = u_casterDepth.x + u_casterDepth.y * normalisedDistance;
+  return u_casterDepth.w * distance / (1.0 + distance);
+}
+
+// Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a
+// signed distance, whose normal has the absolute components `normal`.
+HS_HIGHP float hs_halfPlane(HS_HIGHP float signedDistance, HS_HIGHP vec2 normal, HS_HIGHP vec2 widths) {
+  HS_HIGHP vec2 reach = normal * widths;
+  HS_HIGHP float longer = max(max(reach.x, reach.y), 1e-3);
+  HS_HIGHP float ratio = max(min(reach.x, reach.y) / longer, 1e-3);
+  HS_HIGHP float size = abs(signedDistance) / longer;
+  HS_HIGHP float tail = max(0.5 + 0.5 * ratio - size, 0.0);
+  HS_HIGHP float share = size <= 0.5 - 0.5 * ratio ? 0.5 + size : 1.0 - tail * tail / (2.0 * ratio);
+  return signedDistance < 0.0 ? 1.0 - share : share;
+}
+
+// Share of a rectangle outside a disc about its centre: the disc that reaches the nearest silhouette is all lit or all
+// shadowed. Exact until the disc leaves the short sides; then the four corners, as squares of what is left of their
+// diagonals.
+HS_HIGHP float hs_discOutside(HS_HIGHP float radius, HS_HIGHP vec2 widths) {
+  HS_HIGHP float a = 0.5 * max(widths.x, widths.y);
+  // In units of the longer half side.
+  HS_HIGHP float b = 0.5 * min(widths.x, widths.y) / a;
+  HS_HIGHP float r = radius / a;
+  HS_HIGHP float inscribed = min(r, 1.0);
+  HS_HIGHP float sine = min(b / max(inscribed, 1e-4), 1.0);
+  HS_HIGHP float angle = asin(sine);
+  HS_HIGHP float area = inscribed * inscribed * (angle + sine * sqrt(1.0 - sine * sine));
+  HS_HIGHP float outside = 1.0 - area / (2.0 * b);
+  HS_HIGHP float diagonal = sqrt(1.0 + b * b);
+  HS_HIGHP float corner = clamp((diagonal - r) / (diagonal - 1.0), 0.0, 1.0);
+  return r < 1.0 ? outside : outside * corner * corner;
+}
+
+float hs_visibility() {
+  HS_HIGHP vec2 place = hs_texel * u_widthPlace.xy + u_widthPlace.z;
+  HS_HIGHP vec2 texel = clamp(place, vec2(0.5), u_widthLayout.xy - 0.5);
+  HS_HIGHP vec4 stored = texture2D(u_widthMap, texel * u_widthLayout.zw);
+  HS_COUNT(1);
+  // No silhouette as far as distances reach.
+  if (stored.r < 0.5 / 255.0) return 1.0;
+  HS_HIGHP float signedTexels = hs_unpackDistance(stored.r, u_widthRange.xy);
+  HS_HIGHP vec2 normal = vec2(sqrt(max(1.0 - stored.g * stored.g, 0.0)), stored.g);
+  // Beyond the map all silhouettes are farther by the way back to it.
+  HS_HIGHP vec2 wayBack = abs(place - texel);
+  if (signedTexels < 0.0 && max(wayBack.x, wayBack.y) > 0.0) {
+    HS_HIGHP vec2 edge = normal * -signedTexels + wayBack;
+    signedTexels = -length(edge);
+    normal = edge / -signedTexels;
+  }
+  HS_HIGHP float gap = hs_receiverValue - hs_casterDepth(stored.b);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float ahead = hs_receiverValue - u_bias.x - u_bias.z * slope;
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  // The receiver may be the caster itself. A host's program serves all of its receivers, casting or not.
+  bool exact = ahead <= hs_casterDepth(stored.a + 1.0 / 255.0);
+#else
+  // Occupied, but perhaps by casters behind the receiver.
+  bool exact = signedTexels > 0.0 && ahead <= hs_casterDepth(stored.b + 1.0 / 255.0);
+#endif
+  if (exact) {
+    // Only the exact depth knows, and what it finds lit is.
+    HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
+    HS_HIGHP float exactGap = hs_gap(texture2D(u_depthMap, center * u_map.y), hs_receiver);
+    HS_COUNT(1);
+    HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
+    if (exactGap >= min(dot(hs_gradient, center - hs_texel), 0.0) - bias) return 1.0;
+    HS_HIGHP vec2 widths = u_widthRange.zw * max(gap, -exactGap);
+    return 1.0 - hs_halfPlane(max(signedTexels, 0.0), normal, max(widths, u_casterDepth.z));
+  }
+#ifdef HS_CORNERS
+  // Straight edges are the profile's; what the boxes hold more or less than a straight edge would is corners,
+  // thin casters and casters beside each other.
+  HS_HIGHP vec2 widths = u_widthRange.zw * max(gap, 0.0);
+  HS_HIGHP float level = 0.5 * log2(max(widths.x * widths.y - 2.0, 4.0));
+  HS_HIGHP float lower = clamp(floor(level), 1.0, u_boxLayout.z);
+  HS_HIGHP float upper = clamp(level - lower, 0.0, 1.0);
+  HS_HIGHP vec4 boxes = hs_boxes(texel, lower);
+  // The silhouette nearest by and the casters of the whole kernel: two opinions on the occluder's depth, of equal
+  // weight unless the kernel is too empty for its mean to have any bits.
+  HS_HIGHP vec2 mean = mix(boxes.rg, boxes.ba, upper);
+  HS_HIGHP float meanGap = hs_receiverValue - hs_casterDepth(mean.y / max(mean.x, 1e-3));
+  gap = mix(gap, meanGap, 0.5 * min(8.0 * mean.x, 1.0));
+  widths = u_widthRange.zw * max(gap, 0.0);
+  upper = clamp(0.5 * log2(max(widths.x * widths.y - 2.0, 4.0)) - lower, 0.0, 1.0);
+  widths = max(widths, u_casterDepth.z);
+  HS_HIGHP float small = boxes.r - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower))));
+  HS_HIGHP float large = boxes.b - hs_halfPlane(signedTexels, normal, vec2(sqrt(hs_boxSideSquared(lower + 1.0))));
+  // A receiver beyond the map has the boxes of the map's border, which lie the nearer to the casters.
+  HS_HIGHP float area = widths.x * widths.y;
+  HS_HIGHP float same = clamp(1.0 - 2.0 * max(wayBack.x, wayBack.y) * inversesqrt(area), 0.0, 1.0);
+  HS_HIGHP float share = hs_halfPlane(signedTexels, normal, widths) + same * mix(small, large, upper);
+  // Beyond the largest box there is nothing, as far as boxes know.
+  HS_HIGHP float held = min(hs_boxSideSquared(u_boxLayout.z + 1.0) / area, 1.0);
+  share = mix(same * held * boxes.b, share, held);
+  HS_HIGHP float inner = hs_discOutside(abs(signedTexels), widths);
+  return 1.0 - (signedTexels < 0.0 ? clamp(share, 0.0, inner) : clamp(share, 1.0 - inner, 1.0));
+#else
+  return 1.0 - hs_halfPlane(signedTexels, normal, max(u_widthRange.zw * gap, u_casterDepth.z));
+#endif
+}
+#endif
+
+float halfshadow_visibility() {
+  hs_prepare();
+  return hs_lightMisses ? 1.0 : hs_visibility();
+}
+#ifndef HS_FORWARD
+#ifdef HS_SHADED
+#include "receiver/shade.glsl"
+#endif
+#include "receiver/receiver_main.glsl"
+#endif
