@@ -8,7 +8,7 @@ include(GNUInstallDirs)
 
 # Not named `halfshadow`: that is the command line tool's target.
 add_library(hs_library STATIC)
-foreach(module base device scene outlines gl framegraph_plan framegraph planner techniques api)
+foreach(module base device scene outlines gl framegraph_plan framegraph planner technique_plans techniques api)
   target_sources(hs_library PRIVATE $<TARGET_OBJECTS:hs_${module}>)
 endforeach()
 set_target_properties(hs_library PROPERTIES OUTPUT_NAME halfshadow EXPORT_NAME halfshadow LINKER_LANGUAGE CXX)

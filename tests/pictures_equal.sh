@@ -57,7 +57,7 @@ picture() {  # TOOL FOLDER LINE
   # shellcheck disable=SC2086
   "$1" render $3 "${outputs[@]}" --size 96x72 --device-profile none >"$2/said" 2>&1 || echo "status $?" >>"$2/status"
   # Messages may name the output.
-  sed -i "s#$2/##g; /ms/d" "$2/said"
+  sed -i "s#$2/##g; /ms/d; / of /d; / %/d" "$2/said"
   # Of an EXR file the header holds the time of writing.
   if [[ -e $2/visibility.exr ]]; then sed -i 's/[0-9]\{4\}:[0-9][0-9]:[0-9][0-9] [0-9:]\{8\}//' "$2/visibility.exr"; fi
 }

@@ -83,6 +83,7 @@ Engine::~Engine() {
     gl::HostStateGuard guard(*state_->context,
                              state_->context->lost() ? gl::HostStatePolicy::leaveDirty : state_->policy());
     state_->lastFrame.reset();
+    state_->lightCaches.clear();
     state_->executor.reset();
     state_->shared.forget();
     state_->objects.clear();

@@ -7,6 +7,7 @@
 #include "api/receiver_reach.hpp"
 #include "base/keys.hpp"
 #include "planner/light_reach.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow {
 namespace {
@@ -148,27 +149,25 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
         std::max(farthest, api::receiverFarDistance(
                                cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
   }
-  const techniques::LightFrame lightFrame{
-      .capabilities = context->capabilities(),
-      .context = *context,
-      .programs = *programs,
-      .shared = shared,
-      .settings = *settings,
-      .graph = frame.graph,
-      .view = frame.view,
-      .light = cache.light,
-      .lightIndex = static_cast<int>(index),
-      .fit = cache.fit,
-      .casterPointsWorld = cache.casterPointsWorld,
-      .receiverFarDistance = farthest,
-      .casters = target.casters,
-      .groups = cache.groups,
-      .receivers = frame.receivers,
-      .shadowlessReceivers = target.shadowlessReceivers,
-      .contentKey = plan.contentKey,
-      .sceneKey = combineKeys(plan.contentKey, sceneRevision),
-      .preferredSkip = techniques::filterSkipFromName(settings->choice("filter_skip"))};
-  if (const auto standIn = used->standIn(lightFrame)) {
+  const std::uint64_t sceneKey = combineKeys(plan.contentKey, sceneRevision);
+  const techniques::LightScene scene{.capabilities = context->capabilities(),
+                                     .settings = *settings,
+                                     .screen = frame.view,
+                                     .name = "light " + std::to_string(index),
+                                     .light = cache.light,
+                                     .views = {{.fit = cache.fit,
+                                                .casters = target.casters,
+                                                .contentKey = plan.contentKey,
+                                                .sceneKey = sceneKey}},
+                                     .casterPointsWorld = cache.casterPointsWorld,
+                                     .receiverFarDistance = farthest,
+                                     .casters = target.casters,
+                                     .groups = cache.groups,
+                                     .receivers = frame.receivers,
+                                     .shadowlessReceivers = target.shadowlessReceivers,
+                                     .contentKey = plan.contentKey,
+                                     .sceneKey = sceneKey};
+  if (const auto standIn = used->standIn(scene)) {
     const bool hostEvaluates = desc.output == Output::lightsOnly;
     const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
                                               : "; " + standIn->id + " takes the light";
@@ -176,7 +175,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                             standIn->reason + outcome);
     if (!hostEvaluates) used = techniqueNamed(standIn->id);
   }
-  auto shading = used->declare(lightFrame);
+  auto shading = shadingOf(frame, index, *used, scene);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
   if (desc.output == Output::lightsOnly) {
@@ -188,6 +187,26 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
+}
+
+Result<techniques::ReceiverShading> Engine::State::shadingOf(Frame& frame, std::size_t index,
+                                                             techniques::Technique& used,
+                                                             const techniques::LightScene& scene) {
+  LightCache& cache = lightCaches[index];
+  if (cache.passesOf != &used) {
+    cache.passesOf = &used;
+    auto lightPlanner = used.newPlanner();
+    cache.passes =
+        lightPlanner ? std::make_unique<techniques::LightPasses>(std::move(lightPlanner)) : nullptr;
+  }
+  if (!cache.passes) {
+    const techniques::LightFrame lightFrame(scene, *context, *programs, frame.graph, static_cast<int>(index));
+    return used.declare(lightFrame);
+  }
+  techniques::Device device{*context, *programs, shared};
+  if (Status s = cache.passes->prepare(scene); !s) return s.error();
+  if (Status s = cache.passes->upload(device); !s) return s.error();
+  return cache.passes->declare(frame.view, frame.graph);
 }
 
 void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc,
@@ -338,6 +357,8 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
 Outcome Engine::render(const RenderDesc& desc, FrameReport& report) {
   report = {};
   const Status status = state_->renderFrame(desc, report);
+  // What the lights of the frame before read may have been replaced.
+  if (!status && state_->lastFrame) state_->lastFrame->lights.clear();
   return status ? Outcome{} : state_->fail(status.error());
 }
 

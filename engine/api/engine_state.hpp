@@ -19,7 +19,9 @@
 #include "halfshadow/halfshadow.hpp"
 #include "planner/frame_planner.hpp"
 #include "scene/bounds.hpp"
-#include "techniques/core/receiver_pass.hpp"
+#include "techniques/execution/gpu_mesh.hpp"
+#include "techniques/execution/light_passes.hpp"
+#include "techniques/execution/receiver_pass.hpp"
 #include "techniques/registry/registry.hpp"
 
 namespace halfshadow {
@@ -51,6 +53,8 @@ struct LightCache {
   scene::CasterGroups groups;
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFit fit;
+  const techniques::Technique* passesOf = nullptr;
+  std::unique_ptr<techniques::LightPasses> passes;  ///< null where that technique has no planner
 };
 
 /// Strings and arrays that a FrameReport points to.
@@ -114,6 +118,10 @@ struct Engine::State {
   Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
                       const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision,
                       const RenderDesc& desc);
+  /// Prepares, uploads and declares the light's passes.
+  Result<techniques::ReceiverShading> shadingOf(Frame& frame, std::size_t index,
+                                                techniques::Technique& technique,
+                                                const techniques::LightScene& scene);
   void declareVisibilityPass(Frame& frame, const RenderDesc& desc,
                              std::vector<framegraph::Attachment> targets);
   Status declareReceiverPasses(Frame& frame, const RenderDesc& desc);

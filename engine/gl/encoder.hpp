@@ -10,61 +10,27 @@
 #include <optional>
 #include <span>
 
-#include "base/rect.hpp"
+#include "device/draw_state.hpp"
 #include "gl/objects.hpp"
 #include "gl/program.hpp"
 #include "gl/timers.hpp"
 
 namespace halfshadow::gl {
 
-enum class Compare { never, less, lequal, equal, greater, gequal, notEqual, always };
-enum class Cull { none, back, front };
-enum class BlendFactor {
-  zero,
-  one,
-  srcColor,
-  oneMinusSrcColor,
-  dstColor,
-  oneMinusDstColor,
-  srcAlpha,
-  oneMinusSrcAlpha,
-  dstAlpha,
-  oneMinusDstAlpha
-};
-enum class BlendEquation { add, subtract, reverseSubtract, min, max };
-enum class StencilOp { keep, zero, replace, incrWrap, decrWrap, incr, decr, invert };
-
-struct DepthState {
-  Compare test = Compare::always;
-  bool write = false;
-};
-struct BlendState {
-  bool enabled = false;
-  BlendEquation equation = BlendEquation::add;
-  BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
-};
-struct StencilFace {
-  Compare test = Compare::always;
-  StencilOp stencilFail = StencilOp::keep, depthFail = StencilOp::keep, pass = StencilOp::keep;
-};
-struct StencilState {
-  bool enabled = false;
-  int reference = 0;
-  std::uint32_t readMask = 0xff, writeMask = 0xff;
-  StencilFace front, back;
-};
+using device::AttributeType;
+using device::BlendEquation;
+using device::BlendFactor;
+using device::BlendState;
+using device::Compare;
+using device::Cull;
+using device::DepthState;
+using device::DrawState;
+using device::IndexType;
+using device::StencilFace;
+using device::StencilOp;
+using device::StencilState;
 using halfshadow::Rect;
-struct DrawState {
-  DepthState depth;
-  Cull cull = Cull::none;
-  BlendState blend;
-  StencilState stencil;
-  std::array<bool, 4> colorMask{true, true, true, true};
-  std::optional<Rect> scissor;             ///< window coordinates of the target
-  std::optional<glm::vec2> polygonOffset;  ///< factor, units
-};
 
-enum class AttributeType { float32, unorm8, snorm8, unorm16, snorm16 };
 struct AttributeBinding {
   VertexAttribute attribute = VertexAttribute::position;
   const Buffer* buffer = nullptr;
@@ -73,7 +39,6 @@ struct AttributeBinding {
   int strideBytes = 0;
   std::size_t offsetBytes = 0;
 };
-enum class IndexType { none, uint16, uint32 };
 /// What one draw reads. Not owning.
 struct Geometry {
   std::span<const AttributeBinding> attributes;

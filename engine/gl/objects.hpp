@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "base/error.hpp"
+#include "device/texture_desc.hpp"
 #include "gl/context.hpp"
 
 namespace halfshadow::gl {
@@ -47,28 +48,12 @@ class Object {
   std::uint32_t name_ = 0;
 };
 
-enum class TextureFormat {
-  rgba8,
-  rgb8,
-  alpha8,
-  luminance8,
-  depth16,         ///< OES_depth_texture
-  depth24,         ///< OES_depth_texture, UNSIGNED_INT
-  depth24Stencil8  ///< packed; sampled depth
-};
-enum class TextureFilter { nearest, linear, linearMipNearest, linearMipLinear, nearestMipNearest };
-enum class TextureWrap { clampToEdge, repeat };
+using device::TextureDesc;
+using device::TextureFilter;
+using device::TextureFormat;
+using device::TextureWrap;
 
 std::size_t bytesPerTexel(TextureFormat format);
-
-struct TextureDesc {
-  int width = 0, height = 0;
-  TextureFormat format = TextureFormat::rgba8;
-  TextureFilter filter = TextureFilter::nearest;
-  TextureWrap wrap = TextureWrap::clampToEdge;
-  bool mipmapped = false;  ///< the whole chain is allocated; width and height are then powers of two
-  bool operator==(const TextureDesc&) const = default;
-};
 
 /// A 2D texture.
 class Texture {

@@ -270,4 +270,18 @@ void Program::setArray(Context& context, UniformKey key, const glm::vec2* values
   }
 }
 
+void Program::set(Context& context, const device::UniformList& uniforms) {
+  for (const device::UniformList::Entry& entry : uniforms.entries()) {
+    std::visit(
+        [&](const auto& value) {
+          if constexpr (requires { value.data(); }) {
+            setArray(context, entry.key, value.data(), static_cast<int>(value.size()));
+          } else {
+            set(context, entry.key, value);
+          }
+        },
+        entry.value);
+  }
+}
+
 }  // namespace halfshadow::gl

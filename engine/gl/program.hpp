@@ -15,32 +15,17 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "device/draw_state.hpp"
+#include "device/program_variant.hpp"
+#include "device/uniforms.hpp"
 #include "gl/objects.hpp"
 
 namespace halfshadow::gl {
 
-/// FNV-1a of a uniform's name. Array uniforms use the name without "[0]".
-struct UniformKey {
-  std::uint32_t hash = 0;
-  consteval UniformKey(const char* name) : hash(hashOf(name)) {}
-  static constexpr std::uint32_t hashOf(std::string_view name) {
-    std::uint32_t h = 2166136261u;
-    for (const char c : name) h = (h ^ static_cast<std::uint8_t>(c)) * 16777619u;
-    return h;
-  }
-};
+using device::ProgramVariant;
+using device::UniformKey;
+using device::VertexAttribute;
 
-/// Vertex attributes have fixed locations, the same in every program.
-enum class VertexAttribute : std::uint32_t {
-  position = 0,
-  normal = 1,
-  texcoord = 2,
-  extra0 = 3,
-  extra1 = 4,
-  extra2 = 5,
-  extra3 = 6,
-  extra4 = 7
-};
 /// "a_position", "a_normal", "a_texcoord", "a_extra0" …
 const char* attributeName(VertexAttribute attribute);
 
@@ -72,6 +57,7 @@ class Program {
   /// `count` at least 1; elements past the array's end are ignored.
   void setArray(Context& context, UniformKey key, const glm::vec4* values, int count);
   void setArray(Context& context, UniformKey key, const glm::vec2* values, int count);
+  void set(Context& context, const device::UniformList& uniforms);
 
  private:
   struct Uniform {
@@ -96,14 +82,6 @@ class Program {
 
 /// Text of a shader file by its name below shaders_es2/ ("map/pcf.frag"), or null.
 using ShaderSourceProvider = std::function<const char*(std::string_view fileName)>;
-
-/// `defines` are "NAME" or "NAME VALUE" lines put in front, in order.
-struct ProgramVariant {
-  std::string vertexFile;
-  std::string fragmentFile;
-  std::vector<std::string> defines;
-  auto operator<=>(const ProgramVariant&) const = default;
-};
 
 /// The source of one shader stage, told by the file name's end (".frag" or ".vert"). In this order: version,
 /// extension lines, HS_NO_HIGHP when the context lacks fragment highp, `defines`, the precision lines, the

@@ -16,10 +16,15 @@ class Hard final : public Technique {
                                     .knownFailures = "no penumbra; edges are as coarse as the map's texels"};
     return info;
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    return mapReceiverShading(frame, *depth, "map/hard.frag");
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    plan.shading = mapReceiverShading(scene, plan, depth, "map/hard.frag");
+    return {};
   }
 };
 }  // namespace

@@ -14,8 +14,14 @@ class None final : public Technique {
                                     .knownFailures = "every shadow is missing"};
     return info;
   }
-  Result<ReceiverShading> declare(const LightFrame&) override {
-    return ReceiverShading{.fragmentFile = "receiver/none.frag"};
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene&, PassPlan& plan) {
+    plan.shading.fragmentFile = "receiver/none.frag";
+    return {};
   }
 };
 }  // namespace

@@ -21,8 +21,8 @@ constexpr double kOwnSurfaceBias = 0.024;
 /// light leave the others too little of the map.
 constexpr double kWidestSpread = 8.0;
 
-constexpr gl::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
-                                        "u_occlusion4", "u_occlusion5", "u_occlusion6", "u_occlusion7"};
+constexpr device::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
+                                            "u_occlusion4", "u_occlusion5", "u_occlusion6", "u_occlusion7"};
 
 enum class Preset { paper, tuned };
 struct Choices {
@@ -68,15 +68,15 @@ std::string filterDefine(SliceFilter filter) {
   return {};
 }
 
-Status checkTextureUnits(const LightFrame& frame, std::size_t textures, const SliceOptions& slicing) {
+Status checkTextureUnits(const LightScene& scene, std::size_t textures, const SliceOptions& slicing) {
   const bool textured = std::ranges::any_of(
-      frame.receivers, [](const DrawItem& item) { return item.baseColorTexture != nullptr; });
+      scene.receivers, [](const DrawItem& item) { return item.baseColorTexture != nullptr; });
   const std::size_t needed = textures + (textured ? 1 : 0);
-  if (needed <= static_cast<std::size_t>(frame.capabilities.limits.fragmentTextureUnits)) return {};
+  if (needed <= static_cast<std::size_t>(scene.capabilities.limits.fragmentTextureUnits)) return {};
   return Error{ErrorCode::invalidArgument,
                "occlusion-textures.slices=" + std::to_string(slicing.slices) + " needs " +
                    std::to_string(needed) + " texture units, but this device has " +
-                   std::to_string(frame.capabilities.limits.fragmentTextureUnits) + "; choose fewer slices"};
+                   std::to_string(scene.capabilities.limits.fragmentTextureUnits) + "; choose fewer slices"};
 }
 
 class OcclusionTextures final : public Technique {
@@ -142,53 +142,47 @@ class OcclusionTextures final : public Technique {
                    "paper: also project each slice on the next one, which closes the gaps of thin occluders; "
                    "tuned has no such gaps")};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
-    if (readChoices(frame.settings).paper()) return std::nullopt;
-    return sampledWhereCastersSpread(frame, kWidestSpread);
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    if (readChoices(scene.settings).paper()) return std::nullopt;
+    return sampledWhereCastersSpread(scene, kWidestSpread);
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    Choices choices = readChoices(frame.settings);
-    choices.slicing.receiverFarDistance = frame.receiverFarDistance;
+  std::unique_ptr<LightPlanner> newPlanner() const override;
+};
+
+class OcclusionPlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    Choices choices = readChoices(scene.settings);
+    choices.slicing.receiverFarDistance = scene.receiverFarDistance;
     if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
     }
-    const auto found = spaceOf(frame, choices.slicing);
-    if (!found) return found.error();
-    const SliceSpace* space = *found;
-    for (const int empty : space->emptySlices) {
-      frame.graph.noteSkipped(
-          "light " + std::to_string(frame.lightIndex) + " occlusion slice " + std::to_string(empty + 1),
-          "no caster lies between its borders");
+    if (Status s = findSpace(scene, choices.slicing); !s) return s;
+    for (const int empty : space_->emptySlices) {
+      plan.notes.push_back({scene.name + " occlusion slice " + std::to_string(empty + 1),
+                            "no caster lies between its borders"});
     }
     const SliceContent content = choices.paper() ? SliceContent::everything : SliceContent::nearestFaces;
-    auto slices = declareSlices(frame, *space, content, choices.filter);
-    if (!slices) return slices.error();
-    if (Status s = checkTextureUnits(frame, slices->textures.size(), choices.slicing); !s) return s.error();
-    auto filtered = declareSliceFilter(frame, *space, *slices, choices.filter);
+    const SliceTextures slices = planSlices(scene, plan, *space_, content, choices.filter);
+    if (Status s = checkTextureUnits(scene, slices.textures.size(), choices.slicing); !s) return s;
+    auto filtered = planSliceFilter(scene, plan, *space_, slices, choices.filter);
     if (!filtered) return filtered.error();
-    return receiverShading(choices, *space, *slices, *filtered);
+    plan.shading = receiverShading(choices, *space_, slices, *filtered);
+    return {};
   }
 
  private:
-  /// The space of a light's last frame: finding the slices that hold casters looks at every vertex.
-  struct KnownSpace {
-    std::uint64_t contentKey = 0;
-    SliceOptions options;
-    std::optional<SliceSpace> space;
-  };
-
-  /// Valid until the next call.
-  Result<const SliceSpace*> spaceOf(const LightFrame& frame, const SliceOptions& options) {
-    if (knownSpaces_.size() <= static_cast<std::size_t>(frame.lightIndex))
-      knownSpaces_.resize(static_cast<std::size_t>(frame.lightIndex) + 1);
-    KnownSpace& known = knownSpaces_[static_cast<std::size_t>(frame.lightIndex)];
-    if (!known.space || known.contentKey != frame.contentKey || known.options != options) {
-      auto made = makeSliceSpace(frame.fit, frame.casterPointsWorld, options);
-      if (!made) return made.error();
-      known = {frame.contentKey, options, std::move(made).value()};
-    }
-    return &*known.space;
+  /// Kept from the last frame: finding the slices that hold casters looks at every vertex.
+  Status findSpace(const LightScene& scene, const SliceOptions& options) {
+    if (space_ && contentKey_ == scene.contentKey && options_ == options) return {};
+    space_.reset();
+    auto made = makeSliceSpace(scene.fit(), scene.casterPointsWorld, options);
+    if (!made) return made.error();
+    space_ = std::move(made).value();
+    contentKey_ = scene.contentKey;
+    options_ = options;
+    return {};
   }
 
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
@@ -229,20 +223,23 @@ class OcclusionTextures final : public Technique {
     const glm::vec4 own(space.divisorScale, space.divisorConstant, space.sideScale, 0);
     const glm::vec4 shape(space.shape, std::max(shorter, 1.0 / boxes), 0);
     const glm::vec4 last(space.depthSlices, 0.5 * kOwnSurfaceBias, 0, 0);
-    shading.setUniforms = [borders, place, own, shape, last, layout = filtered.layout](gl::Program& program,
-                                                                                       gl::Context& context) {
-      program.setArray(context, "u_slices", borders.data(), static_cast<int>(borders.size()));
-      program.set(context, "u_slicePlace", place);
-      program.set(context, "u_sliceOwn", own);
-      program.set(context, "u_occlusionLayout", layout);
-      program.set(context, "u_kernelShape", shape);
-      program.set(context, "u_lastRange", last);
-    };
+    shading.uniforms.set("u_slices", borders);
+    shading.uniforms.set("u_slicePlace", place);
+    shading.uniforms.set("u_sliceOwn", own);
+    shading.uniforms.set("u_occlusionLayout", filtered.layout);
+    shading.uniforms.set("u_kernelShape", shape);
+    shading.uniforms.set("u_lastRange", last);
     return shading;
   }
 
-  std::vector<KnownSpace> knownSpaces_;
+  std::uint64_t contentKey_ = 0;
+  SliceOptions options_;
+  std::optional<SliceSpace> space_;
 };
+
+std::unique_ptr<LightPlanner> OcclusionTextures::newPlanner() const {
+  return std::make_unique<OcclusionPlanner>();
+}
 }  // namespace
 
 std::unique_ptr<Technique> makeOcclusionTextures() {

@@ -5,7 +5,7 @@
 
 #include "base/keys.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
-#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -24,7 +24,7 @@ struct LevelLayout {
   int stride(int level) const { return 1 << std::max(0, level - kFinestLevels); }
   int side(int level) const { return mapSize / stride(level) + 2 * kPad + 1; }
   /// The four full-size levels in a square, the others in a column to their right.
-  gl::Rect rect(int level) const {
+  Rect rect(int level) const {
     if (level <= kFinestLevels) return {level % 2 * side(0), level / 2 * side(0), side(level), side(level)};
     int y = 0;
     for (int l = kFinestLevels + 1; l < level; ++l) y += side(l);
@@ -35,7 +35,7 @@ struct LevelLayout {
 };
 
 /// Where a mip level lies in its atlas: as parts/maps lays out the blocker pyramid.
-gl::Rect mipRect(int mapSize, int level) {
+Rect mipRect(int mapSize, int level) {
   const int side = mapSize >> level;
   if (level == 0) return {1, 1, side, side};
   return {mapSize + 3, 1 + mapSize - 2 * side + 2 * (level - 1), side, side};
@@ -53,54 +53,47 @@ double countOfFullTexel(int mapSize) {
 }
 
 struct Builder {
-  const LightFrame& frame;
+  PassPlan& plan;
   const SliceSpace& space;
   std::string prefix;
   std::uint64_t key;
 
   ResourceId target(const std::string& name, int width, int height, Filter filter) const {
-    return frame.graph.addResource({.name = prefix + name,
-                                    .width = width,
-                                    .height = height,
-                                    .lifetime = Lifetime::persistent,
-                                    .filter = filter});
+    return plan.addImage({.name = prefix + name,
+                          .width = width,
+                          .height = height,
+                          .lifetime = Lifetime::persistent,
+                          .filter = filter});
   }
 };
 
-Result<ResourceId> declareMipmaps(const Builder& b, ResourceId source, int lastLevel) {
-  auto copy = b.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
-  if (!copy) return copy.error();
+/// Into a part of the target.
+PlannedDraw copyDraw(ResourceId source, const Rect& target) {
+  return {.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+          .textures = {{.sampler = "u_source", .resource = source}},
+          .viewport = target};
+}
+
+ResourceId planMipmaps(const Builder& b, ResourceId source, int lastLevel) {
   const int size = b.space.mapSize;
   const auto atlas = b.target(" mip atlas", size + size / 2 + 4, size + 2 * lastLevel + 2, Filter::linear);
-  framegraph::PassDesc pass{
-      .name = b.prefix + " mip atlas", .stage = framegraph::PassStage::mask, .reads = {source}};
-  pass.writes = {{.resource = atlas}};
-  pass.contentKey = combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel));
-  pass.execute = [program = *copy, source, size, lastLevel](framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    encoder.useProgram(*program);
-    const gl::TextureBinding binding{program->samplerUnit("u_source"), &context.texture(source)};
-    encoder.bindTextures({&binding, 1});
-    for (int level = 0; level <= lastLevel; ++level) {
-      encoder.setViewport(mipRect(size, level));
-      encoder.drawFullscreen({});
-    }
-  };
-  b.frame.graph.addPass(std::move(pass));
+  PlannedPass pass{.name = b.prefix + " mip atlas",
+                   .writes = {{.resource = atlas}},
+                   .contentKey = combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel))};
+  for (int level = 0; level <= lastLevel; ++level)
+    pass.draws.push_back(copyDraw(source, mipRect(size, level)));
+  b.plan.passes.push_back(std::move(pass));
   return atlas;
 }
 
 /// Based on: Décoret, "N-buffers for efficient depth map query", 2005 (each level from the one before), with
 /// sums instead of maxima: Eisemann, Décoret 2006, section 3.2.
-Result<ResourceId> declareNBuffer(const Builder& b, ResourceId source, int lastLevel) {
+ResourceId planNBuffer(const Builder& b, ResourceId source, int lastLevel) {
   const LevelLayout layout{.mapSize = b.space.mapSize};
   std::vector<ResourceId> levels;
   for (int level = 0; level <= lastLevel; ++level) {
     std::vector<std::string> defines;
     if (level == 0) defines.push_back("HS_FIRST_LEVEL");
-    auto program =
-        b.frame.programs.get({"screen/fullscreen.vert", "occlusion/occlusion_level.frag", defines});
-    if (!program) return program.error();
     const int side = layout.side(level);
     const std::string name = " level " + std::to_string(level);
     const auto target = b.target(name, side, side, Filter::nearest);
@@ -116,42 +109,32 @@ Result<ResourceId> declareNBuffer(const Builder& b, ResourceId source, int lastL
       const double shift = level == 1 ? -0.5 : 0.0;
       place = {side, stride / before, (-pad * stride - half + shift) / before + pad, 2.0 * half / before};
     }
-    addFilterPass(
-        b.frame.graph,
-        {.name = b.prefix + name,
-         .program = *program,
-         .source = level == 0 ? source : levels.back(),
-         .target = target,
-         .sourceSize = static_cast<int>(sourceSide),
-         .contentKey = combineKeys(b.key, 0x6b0u + static_cast<std::uint64_t>(level)),
-         .sampler = "u_source",
-         .setUniforms = [place](gl::Program& p, gl::Context& context) { p.set(context, "u_place", place); }});
+    device::UniformList uniforms;
+    uniforms.set("u_place", place);
+    addFilterPass(b.plan, {.name = b.prefix + name,
+                           .fragmentFile = "occlusion/occlusion_level.frag",
+                           .defines = defines,
+                           .source = level == 0 ? source : levels.back(),
+                           .target = target,
+                           .sourceSize = static_cast<int>(sourceSide),
+                           .contentKey = combineKeys(b.key, 0x6b0u + static_cast<std::uint64_t>(level)),
+                           .sampler = "u_source",
+                           .uniforms = std::move(uniforms)});
     levels.push_back(target);
   }
-  auto copy = b.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
-  if (!copy) return copy.error();
   const auto atlas = b.target(" N-buffer", layout.width(), layout.height(), Filter::linear);
-  framegraph::PassDesc pass{
-      .name = b.prefix + " N-buffer", .stage = framegraph::PassStage::mask, .reads = levels};
-  pass.writes = {{.resource = atlas}};
-  pass.contentKey = combineKeys(b.key, 0x6bffu + static_cast<std::uint64_t>(lastLevel));
-  pass.execute = [program = *copy, levels, layout](framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    encoder.useProgram(*program);
-    for (std::size_t level = 0; level < levels.size(); ++level) {
-      const gl::TextureBinding binding{program->samplerUnit("u_source"), &context.texture(levels[level])};
-      encoder.bindTextures({&binding, 1});
-      encoder.setViewport(layout.rect(static_cast<int>(level)));
-      encoder.drawFullscreen({});
-    }
-  };
-  b.frame.graph.addPass(std::move(pass));
+  PlannedPass pass{.name = b.prefix + " N-buffer",
+                   .writes = {{.resource = atlas}},
+                   .contentKey = combineKeys(b.key, 0x6bffu + static_cast<std::uint64_t>(lastLevel))};
+  for (std::size_t level = 0; level < levels.size(); ++level)
+    pass.draws.push_back(copyDraw(levels[level], layout.rect(static_cast<int>(level))));
+  b.plan.passes.push_back(std::move(pass));
   return atlas;
 }
 
 /// Prefix sums along rows, then along columns, four texels at a time (log4 of the side passes each): counts
 /// of 24 bits in red, green and blue, the texture's four channels in four tiles.
-Result<ResourceId> declareSummedArea(const Builder& b, ResourceId source) {
+ResourceId planSummedArea(const Builder& b, ResourceId source) {
   const int size = b.space.mapSize;
   ResourceId current = source;
   for (int direction = 0; direction < 2; ++direction) {
@@ -159,27 +142,24 @@ Result<ResourceId> declareSummedArea(const Builder& b, ResourceId source) {
       const bool first = direction == 0 && stride == 1;
       std::vector<std::string> defines;
       if (first) defines.push_back("HS_FIRST_STEP");
-      auto program =
-          b.frame.programs.get({"screen/fullscreen.vert", "occlusion/occlusion_sum.frag", defines});
-      if (!program) return program.error();
       const std::string name = std::string(direction == 0 ? " row" : " column") + " sums of " +
                                std::to_string(std::min(4 * stride, size));
       const auto target = b.target(name, 2 * size, 2 * size, Filter::nearest);
       const glm::vec4 step(direction == 0 ? stride : 0, direction == 1 ? stride : 0, size, 0);
       const glm::vec4 quantum(countOfFullTexel(size), 0, 0, 0);
-      addFilterPass(b.frame.graph,
-                    {.name = b.prefix + name,
-                     .program = *program,
-                     .source = current,
-                     .target = target,
-                     .sourceSize = first ? size : 2 * size,
-                     .contentKey = combineKeys(
-                         b.key, 0x5a70000u + static_cast<std::uint64_t>(direction * 65536 + stride)),
-                     .sampler = "u_source",
-                     .setUniforms = [step, quantum](gl::Program& p, gl::Context& context) {
-                       p.set(context, "u_step", step);
-                       p.set(context, "u_quantum", quantum);
-                     }});
+      device::UniformList uniforms;
+      uniforms.set("u_step", step);
+      uniforms.set("u_quantum", quantum);
+      addFilterPass(b.plan, {.name = b.prefix + name,
+                             .fragmentFile = "occlusion/occlusion_sum.frag",
+                             .defines = defines,
+                             .source = current,
+                             .target = target,
+                             .sourceSize = first ? size : 2 * size,
+                             .contentKey = combineKeys(
+                                 b.key, 0x5a70000u + static_cast<std::uint64_t>(direction * 65536 + stride)),
+                             .sampler = "u_source",
+                             .uniforms = std::move(uniforms)});
       current = target;
     }
   }
@@ -187,8 +167,8 @@ Result<ResourceId> declareSummedArea(const Builder& b, ResourceId source) {
 }
 }  // namespace
 
-Result<FilteredSlices> declareSliceFilter(const LightFrame& frame, const SliceSpace& space,
-                                          const SliceTextures& slices, SliceFilter filter) {
+Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
+                                       const SliceTextures& slices, SliceFilter filter) {
   FilteredSlices result;
   const int size = space.mapSize;
   const LevelLayout layout{.mapSize = size};
@@ -202,7 +182,7 @@ Result<FilteredSlices> declareSliceFilter(const LightFrame& frame, const SliceSp
     width = layout.width();
     height = layout.height();
   }
-  if (const int limit = frame.capabilities.limits.textureSize; std::max(width, height) > limit) {
+  if (const int limit = scene.capabilities.limits.textureSize; std::max(width, height) > limit) {
     return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                  " needs a texture of " + std::to_string(width) + "x" +
                                                  std::to_string(height) + ", but this device's limit is " +
@@ -212,14 +192,12 @@ Result<FilteredSlices> declareSliceFilter(const LightFrame& frame, const SliceSp
                       ? glm::vec4(size, 0.5 / size, 256.0 / countOfFullTexel(size), 0)
                       : glm::vec4(size, 1.0 / width, 1.0 / height, lastLevel);
   for (std::size_t i = 0; i < slices.textures.size(); ++i) {
-    const Builder builder{frame, space,
-                          "light " + std::to_string(frame.lightIndex) + " occlusion " + std::to_string(i + 1),
+    const Builder builder{plan, space, scene.name + " occlusion " + std::to_string(i + 1),
                           combineKeys(slices.contentKey, i + 1)};
-    auto made = filter == SliceFilter::mipmap    ? declareMipmaps(builder, slices.textures[i], lastLevel)
-                : filter == SliceFilter::nbuffer ? declareNBuffer(builder, slices.textures[i], lastLevel)
-                                                 : declareSummedArea(builder, slices.textures[i]);
-    if (!made) return made.error();
-    result.textures.push_back(*made);
+    result.textures.push_back(
+        filter == SliceFilter::mipmap    ? planMipmaps(builder, slices.textures[i], lastLevel)
+        : filter == SliceFilter::nbuffer ? planNBuffer(builder, slices.textures[i], lastLevel)
+                                         : planSummedArea(builder, slices.textures[i]));
   }
   return result;
 }

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "techniques/core/technique.hpp"
+#include "techniques/core/pass_plan.hpp"
 #include "techniques/occlusion_textures/slice_space.hpp"
 
 namespace halfshadow::techniques {
@@ -28,8 +28,8 @@ struct SliceTextures {
   std::uint64_t contentKey = 0;
 };
 /// One geometry pass per texture; nearest faces are rasterised twice as fine and averaged.
-Result<SliceTextures> declareSlices(const LightFrame& frame, const SliceSpace& space, SliceContent content,
-                                    SliceFilter filter);
+SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
+                         SliceContent content, SliceFilter filter);
 
 /// Filtered textures, one for each of the slices', and the layout uniform of occlusion_filter.glsl.
 struct FilteredSlices {
@@ -38,7 +38,7 @@ struct FilteredSlices {
 };
 /// N-buffers and mipmaps get the levels that kernels of `space.widestTexels` need; all filters take kernels
 /// of any size. Errors: invalidArgument (a texture would be larger than the device allows).
-Result<FilteredSlices> declareSliceFilter(const LightFrame& frame, const SliceSpace& space,
-                                          const SliceTextures& slices, SliceFilter filter);
+Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
+                                       const SliceTextures& slices, SliceFilter filter);
 
 }  // namespace halfshadow::techniques

@@ -35,16 +35,16 @@ std::vector<SettingInfo> kernelSettings(const std::string& id) {
 }
 
 /// Radius in texels beyond which the kernel takes no tap, texel centring included.
-double kernelRadiusTexels(const LightFrame& frame, const std::string& id) {
-  const int size = frame.settings.integer(id + ".size");
+double kernelRadiusTexels(const LightScene& scene, const std::string& id) {
+  const int size = scene.settings.integer(id + ".size");
   // A disc's points leave the unit disc a little when they are centred; a tap moves to its texel's centre.
-  return frame.settings.choice(id + ".pattern") == "poisson" ? 0.5 * size * 1.25 + 0.75 : 0.5 * size + 0.5;
+  return scene.settings.choice(id + ".pattern") == "poisson" ? 0.5 * size * 1.25 + 0.75 : 0.5 * size + 0.5;
 }
 
-ReceiverShading kernelShading(const LightFrame& frame, const LightDepth& depth, const std::string& id,
-                              std::string fragmentFile) {
-  const Settings& settings = frame.settings;
-  ReceiverShading shading = mapReceiverShading(frame, depth, std::move(fragmentFile));
+ReceiverShading kernelShading(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                              const std::string& id, std::string fragmentFile) {
+  const Settings& settings = scene.settings;
+  ReceiverShading shading = mapReceiverShading(scene, plan, depth, std::move(fragmentFile));
   if (settings.choice(id + ".pattern") == "grid") {
     shading.defines.push_back("HS_KERNEL " + settings.text(id + ".size"));
     return shading;
@@ -54,11 +54,7 @@ ReceiverShading kernelShading(const LightFrame& frame, const LightDepth& depth, 
   shading.defines.push_back(poissonTapsDefine(taps));
   if (settings.choice(id + ".rotate") == "on") shading.defines.push_back("HS_ROTATE");
   const glm::vec4 poisson(0.5 * settings.integer(id + ".size"), 0, 0, 0);
-  shading.setUniforms = [poisson, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                          gl::Context& context) {
-    inner(program, context);
-    program.set(context, "u_poisson", poisson);
-  };
+  shading.uniforms.set("u_poisson", poisson);
   return shading;
 }
 
@@ -74,10 +70,15 @@ class Pcf final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override { return kernelSettings("pcf"); }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    return kernelShading(frame, *depth, "pcf", "map/pcf.frag");
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    plan.shading = kernelShading(scene, plan, depth, "pcf", "map/pcf.frag");
+    return {};
   }
 };
 
@@ -111,31 +112,34 @@ class PcfMasked final : public Technique {
          "how unfiltered pixels skip the taps; auto: what the device profile measured as fastest"});
     return settings;
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    const Settings& settings = frame.settings;
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    ReceiverShading shading = kernelShading(frame, *depth, "pcf-masked", "map/pcf_masked.frag");
-    const double radius = kernelRadiusTexels(frame, "pcf-masked");
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const Settings& settings = scene.settings;
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    ReceiverShading& shading = plan.shading;
+    shading = kernelShading(scene, plan, depth, "pcf-masked", "map/pcf_masked.frag");
+    const double radius = kernelRadiusTexels(scene, "pcf-masked");
     if (settings.choice("pcf-masked.mask") == "minmax") {
-      auto bounds = declareBlockBounds(frame, *depth, radius);
-      if (!bounds) return bounds.error();
-      addBlockMask(shading, *bounds);
+      addBlockMask(shading, planBlockBounds(scene, plan, depth, radius));
     } else {
       const EdgeFilter filter = settings.choice("pcf-masked.mask") == "laplacian5" ? EdgeFilter::laplacian5
                                                                                    : EdgeFilter::laplacian9;
-      auto mask = declareEdgeMask(frame, *depth, {.filter = filter, .radiusTexels = radius});
+      auto mask = planEdgeMask(scene, plan, depth, {.filter = filter, .radiusTexels = radius});
       if (!mask) return mask.error();
       shading.defines.push_back("HS_MASK_EDGES");
       addEdgeMask(shading, *mask);
     }
     const std::string& skip = settings.choice("pcf-masked.skip");
-    shading.skip = skip == "auto" ? frame.preferredSkip : filterSkipFromName(skip);
+    shading.skip = skip == "auto" ? preferredSkip(scene) : filterSkipFromName(skip);
     if (shading.skip == FilterSkip::loop && settings.choice("pcf-masked.pattern") == "poisson") {
       shading.skip = FilterSkip::branch;  // the disc's taps are unrolled: there is no loop to bound
     }
     if (shading.skip == FilterSkip::loop) shading.defines.push_back("HS_SKIP_LOOP");
-    return shading;
+    return {};
   }
 };
 

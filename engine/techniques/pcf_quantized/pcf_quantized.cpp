@@ -64,77 +64,73 @@ class PcfQuantized final : public Technique {
              {"laplacian5", "laplacian9"},
              "edge filter of preset=paper"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
     // The paper's bands are far from the truth in any case.
-    if (frame.settings.choice("pcf-quantized.preset") == "paper") return std::nullopt;
-    return standInForOneView(frame);
+    if (scene.settings.choice("pcf-quantized.preset") == "paper") return std::nullopt;
+    return standInForOneView(scene);
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    return frame.settings.choice("pcf-quantized.preset") == "paper" ? declarePaper(frame)
-                                                                    : declareTuned(frame);
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
-  static Result<ReceiverShading> declarePaper(const LightFrame& frame) {
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    return scene.settings.choice("pcf-quantized.preset") == "paper" ? planPaper(scene, plan)
+                                                                    : planTuned(scene, plan);
+  }
+
+  static Status planPaper(const LightScene& scene, PassPlan& plan) {
     // The paper's map holds the whole scene: an edge's strength is the step from caster to receiver.
-    auto depth = declareLightDepth(frame, MapContent::castersAndReceivers);
-    if (!depth) return depth.error();
-    const auto sides = kernelSides(frame.settings.choice("pcf-quantized.kernels"));
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::castersAndReceivers);
+    const auto sides = kernelSides(scene.settings.choice("pcf-quantized.kernels"));
     // The paper's thresholds .2, .5, .8 are kept; the strength is scaled so that 1 is the depth step whose
     // penumbra is as wide as the largest kernel.
     const double strength =
-        std::max(depth->space.kernelTexelsPerDepth.x, depth->space.kernelTexelsPerDepth.y) / sides[2];
-    auto mask = declareEdgeMask(
-        frame, *depth,
-        {.filter = frame.settings.choice("pcf-quantized.filter") == "laplacian9" ? EdgeFilter::laplacian9
+        std::max(depth.space.kernelTexelsPerDepth.x, depth.space.kernelTexelsPerDepth.y) / sides[2];
+    auto mask = planEdgeMask(
+        scene, plan, depth,
+        {.filter = scene.settings.choice("pcf-quantized.filter") == "laplacian9" ? EdgeFilter::laplacian9
                                                                                  : EdgeFilter::laplacian5,
          .radiusTexels = 0.5 * sides[2],
          .strengthPerDepth = std::max(strength, 1e-6)});
     if (!mask) return mask.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcf_quantized_paper.frag");
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "map/pcf_quantized_paper.frag");
     addEdgeMask(shading, *mask);
     addKernels(shading, sides);
-    return shading;
+    return {};
   }
 
-  static Result<ReceiverShading> declareTuned(const LightFrame& frame) {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    auto pyramid = declareBlockerPyramid(frame, *depth);
+  static Status planTuned(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    auto pyramid = planBlockerPyramid(scene, plan, depth);
     if (!pyramid) return pyramid.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcf_quantized.frag");
-    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, shading);
-    addBlockerPyramid(shading, *depth, *pyramid);
-    addKernels(shading, kernelSides(frame.settings.choice("pcf-quantized.kernels")));
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "map/pcf_quantized.frag");
+    addPenumbraBounds(scene, plan, depth, shading);
+    addSelfReceiverSearch(scene, shading);
+    addBlockerPyramid(shading, depth, *pyramid);
+    addKernels(shading, kernelSides(scene.settings.choice("pcf-quantized.kernels")));
 
     // Bands evenly apart in octaves from the widest penumbra that this frame can have down to two texels, at
     // most half an octave apart. A caster close to the light makes that width huge and rare: then all bands
     // are spread.
-    const MapSpace& space = depth->space;
-    const double widest = std::clamp(widestPenumbraTexels(frame, space), 2.0, 0.5 * space.mapSize);
-    const int bands = frame.settings.integer("pcf-quantized.bands");
+    const MapSpace& space = depth.space;
+    const double widest = std::clamp(widestPenumbraTexels(scene, space), 2.0, 0.5 * space.mapSize);
+    const int bands = scene.settings.integer("pcf-quantized.bands");
     const double evenly = std::log2(widest / 2.0) / (bands - 1);
     const double octavesApart = widest > 0.4 * space.mapSize ? evenly : std::min(evenly, 0.5);
     const double narrowest = std::max(widest * std::exp2(-octavesApart * (bands - 1)), 1.0);
     const double octaves = std::max(std::log2(widest / narrowest), 1e-3);
     const glm::vec4 bandUniform(std::log2(narrowest), (bands - 1) / octaves, bands - 1, 0.0);
-    shading.setUniforms = [bandUniform, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                                gl::Context& context) {
-      inner(program, context);
-      program.set(context, "u_bands", bandUniform);
-    };
-    return shading;
+    shading.uniforms.set("u_bands", bandUniform);
+    return {};
   }
 
   static void addKernels(ReceiverShading& shading, const std::array<int, 3>& sides) {
     shading.defines.push_back("HS_SPREAD_KERNEL " + std::to_string(sides[2]));
     const glm::vec4 kernels(sides[0], sides[1], sides[2], 0);
-    shading.setUniforms = [kernels, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                            gl::Context& context) {
-      inner(program, context);
-      program.set(context, "u_kernels", kernels);
-    };
+    shading.uniforms.set("u_kernels", kernels);
   }
 };
 

@@ -23,15 +23,20 @@ class Pcss final : public Technique {
     return {{"pcss.search", SettingType::integer, "5", 3, 9, {}, "taps per side of the blocker search"},
             {"pcss.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForOneView(frame); }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcss.frag");
-    shading.defines.push_back("HS_SEARCH " + frame.settings.text("pcss.search"));
-    shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss.size"));
-    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    return shading;
+  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "map/pcss.frag");
+    shading.defines.push_back("HS_SEARCH " + scene.settings.text("pcss.search"));
+    shading.defines.push_back("HS_SPREAD_KERNEL " + scene.settings.text("pcss.size"));
+    addPenumbraBounds(scene, plan, depth, shading);
+    return {};
   }
 };
 }  // namespace

@@ -23,18 +23,23 @@ class PcssMip final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {{"pcss-mip.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForOneView(frame); }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    auto pyramid = declareBlockerPyramid(frame, *depth);
+  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    auto pyramid = planBlockerPyramid(scene, plan, depth);
     if (!pyramid) return pyramid.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/pcss_mip.frag");
-    shading.defines.push_back("HS_SPREAD_KERNEL " + frame.settings.text("pcss-mip.size"));
-    if (Status s = addPenumbraBounds(frame, *depth, shading); !s) return s.error();
-    addSelfReceiverSearch(frame, shading);
-    addBlockerPyramid(shading, *depth, *pyramid);
-    return shading;
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "map/pcss_mip.frag");
+    shading.defines.push_back("HS_SPREAD_KERNEL " + scene.settings.text("pcss-mip.size"));
+    addPenumbraBounds(scene, plan, depth, shading);
+    addSelfReceiverSearch(scene, shading);
+    addBlockerPyramid(shading, depth, *pyramid);
+    return {};
   }
 };
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "techniques/core/receiver_pass.hpp"
 #include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
@@ -41,76 +40,66 @@ class Sampled final : public Technique {
              {},
              "points of the light, one depth map each"}};
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    const int samples = frame.settings.integer("sampled.samples");
-    const std::string prefix = "light " + std::to_string(frame.lightIndex);
-    const int width = frame.view.width, height = frame.view.height;
-    const auto counts =
-        frame.graph.addResource({.name = prefix + " sample counts", .width = width, .height = height});
-    const auto depthTest = frame.graph.addResource({.name = prefix + " sample depth test",
-                                                    .width = width,
-                                                    .height = height,
-                                                    .format = framegraph::Format::depth24,
-                                                    .storage = framegraph::Storage::renderbuffer});
-    for (int i = 0; i < samples; ++i) {
-      if (Status s = declareSample(frame, i, counts, depthTest); !s) return s.error();
-    }
-    ReceiverShading shading;
-    shading.fragmentFile = "screen/screen_counts.frag";
-    shading.forward = false;
-    shading.textures = {{.sampler = "u_counts", .resource = counts}};
-    const glm::vec4 scale(255.0 / samples, 0, 0, 0);
-    shading.setUniforms = [scale](gl::Program& program, gl::Context& context) {
-      program.set(context, "u_samples", scale);
-    };
-    return shading;
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
-  static Status declareSample(const LightFrame& frame, int index, framegraph::ResourceId counts,
-                              framegraph::ResourceId depthTest) {
-    scene::AreaLight point = frame.light;
-    const glm::dvec2 at = samplePoint(index);
-    point.centerWorld += at.x * frame.light.halfU + at.y * frame.light.halfV;
-    point.halfU = point.halfV = glm::dvec3(0.0);
-    const planner::LightFit fit =
-        planner::fitLight(point, frame.casterPointsWorld, {.mapSize = frame.fit.mapSize});
-    LightFrame sample = frame;
-    sample.fit = fit;
-    sample.mapName = " sample " + std::to_string(index);
-    sample.mapLifetime = framegraph::Lifetime::transient;
-    sample.contentKey = sample.sceneKey = 0;
-    auto depth = declareLightDepth(sample, MapContent::casters);
-    if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(sample, *depth, "map/hard.frag");
-    shading.defines.push_back("HS_COUNT_SHADOWED");
-    auto programs = receiverPrograms(frame.programs, shading, ReceiverOutput::visibility, frame.receivers);
-    if (!programs) return programs.error();
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const int samples = scene.settings.integer("sampled.samples");
+    const int width = scene.screen.width, height = scene.screen.height;
+    const auto counts =
+        plan.addImage({.name = scene.name + " sample counts", .width = width, .height = height});
+    const auto depthTest = plan.addImage({.name = scene.name + " sample depth test",
+                                          .width = width,
+                                          .height = height,
+                                          .format = framegraph::Format::depth24,
+                                          .storage = framegraph::Storage::renderbuffer});
+    for (int i = 0; i < samples; ++i) planSample(scene, plan, i, counts, depthTest);
+    ReceiverShading& shading = plan.shading;
+    shading.fragmentFile = "screen/screen_counts.frag";
+    shading.forward = false;
+    shading.textures = {{.sampler = "u_counts", .resource = counts}};
+    shading.uniforms.set("u_samples", glm::vec4(255.0 / samples, 0, 0, 0));
+    return {};
+  }
 
-    framegraph::PassDesc pass{
-        .name = "light " + std::to_string(frame.lightIndex) + " count sample " + std::to_string(index),
-        .stage = framegraph::PassStage::light,
-        .reads = resourcesRead(shading)};
+  /// What the light shows from one of its points.
+  static LightView sampleView(const LightScene& scene, int index) {
+    scene::AreaLight point = scene.light;
+    const glm::dvec2 at = samplePoint(index);
+    point.centerWorld += at.x * scene.light.halfU + at.y * scene.light.halfV;
+    point.halfU = point.halfV = glm::dvec3(0.0);
+    return {.fit = planner::fitLight(point, scene.casterPointsWorld, {.mapSize = scene.fit().mapSize}),
+            .casters = scene.casters,
+            .name = " sample " + std::to_string(index)};
+  }
+
+  static void planSample(const LightScene& scene, PassPlan& plan, int index, framegraph::ResourceId counts,
+                         framegraph::ResourceId depthTest) {
+    const LightDepth depth = planLightDepth(scene, sampleView(scene, index), plan, MapContent::casters);
+    ReceiversDraw count{.shading = mapReceiverShading(scene, plan, depth, "map/hard.frag"),
+                        .items = scene.receivers,
+                        .target = {.depthIsComplete = true, .additive = true, .depthsApart = true}};
+    count.shading.defines.push_back("HS_COUNT_SHADOWED");
+    count.target.colorMask.fill(false);
+
     const auto initial = index == 0 ? framegraph::InitialContent::clear : framegraph::InitialContent::keep;
+    PlannedPass pass{.name = scene.name + " count sample " + std::to_string(index),
+                     .stage = framegraph::PassStage::light};
     pass.writes = {{.resource = counts, .point = framegraph::AttachmentPoint::color, .initial = initial},
                    {.resource = depthTest, .point = framegraph::AttachmentPoint::depth, .initial = initial}};
-    if (index > 0)
-      pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
-    ReceiverTarget target{.depthIsComplete = true, .additive = true, .depthsApart = true};
-    target.colorMask.fill(false);
-    target.colorMask[static_cast<std::size_t>(index / kSamplesPerChannel)] = true;
-    pass.execute = [shading, programs = *programs, &view = frame.view, target, first = index == 0,
-                    items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
-                       framegraph::PassContext& context) {
+    if (index == 0) {
       // Depth first: what is covered later must not have been counted.
-      if (first) {
-        const ReceiverTarget depthOnly{.colorMask = {false, false, false, false}, .depthsApart = true};
-        drawReceivers(context, shading, programs, view, items, nullptr, depthOnly);
-      }
-      drawReceivers(context, shading, programs, view, items, nullptr, target);
-    };
-    frame.graph.addPass(std::move(pass));
-    return {};
+      ReceiversDraw depthOnly = count;
+      depthOnly.target.depthIsComplete = depthOnly.target.additive = false;
+      pass.draws.push_back({.what = std::move(depthOnly)});
+    } else {
+      pass.rebindReason = "one depth map at a time is counted; all of them would not fit in memory";
+    }
+    count.target.colorMask[static_cast<std::size_t>(index / kSamplesPerChannel)] = true;
+    pass.draws.push_back({.what = std::move(count)});
+    plan.passes.push_back(std::move(pass));
   }
 };
 }  // namespace

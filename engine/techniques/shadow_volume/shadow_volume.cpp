@@ -51,7 +51,7 @@ class ShadowVolume final : public Technique {
         count == "blend" || !hasStencil ? VolumeCounter::blend : VolumeCounter::stencil;
     auto programs = volumePrograms(frame.programs);
     if (!programs) return programs.error();
-    const VolumeView view = volumeView(frame.view);
+    const VolumeView view = volumeView(frame.screen);
     auto volumes = prepareVolumes(frame, view, cache_, counter);
     if (!volumes) return volumes.error();
     const framegraph::ResourceId target = screenPass(frame, view, *programs, counter);
@@ -62,7 +62,8 @@ class ShadowVolume final : public Technique {
     shading.forward = false;
     shading.textures = {{.sampler = "u_screen", .resource = target}};
     for (int column = 0; column < 4; ++column) {
-      shading.mapFromWorld[column] = glm::dvec4(frame.fit.lightFromWorld[column].z / frame.fit.nearDistance);
+      shading.mapFromWorld[column] =
+          glm::dvec4(frame.fit().lightFromWorld[column].z / frame.fit().nearDistance);
     }
     glm::vec4 channel(0.0f);
     channel[frame.lightIndex] = counter == VolumeCounter::stencil ? 1.0f : -255.0f;
@@ -93,11 +94,11 @@ class ShadowVolume final : public Technique {
     jobs_ = std::make_shared<std::vector<LightJob>>();
     const bool stencil = counter == VolumeCounter::stencil;
     const auto target = frame.graph.addResource(
-        {.name = kTargetName, .width = frame.view.width, .height = frame.view.height});
+        {.name = kTargetName, .width = frame.screen.width, .height = frame.screen.height});
     const auto depth = frame.graph.addResource(
         {.name = "shadow volumes depth",
-         .width = frame.view.width,
-         .height = frame.view.height,
+         .width = frame.screen.width,
+         .height = frame.screen.height,
          .format = stencil ? framegraph::Format::depth24Stencil8 : framegraph::Format::depth24,
          .storage = framegraph::Storage::renderbuffer});
     framegraph::ClearValue clear;

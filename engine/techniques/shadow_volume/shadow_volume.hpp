@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "gl/encoder.hpp"
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 #include "techniques/shadow_volume/volume_mesh.hpp"
 
 namespace halfshadow::techniques {

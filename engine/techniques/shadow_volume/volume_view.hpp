@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "gl/encoder.hpp"
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

@@ -4,10 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 #include "base/keys.hpp"
-#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -19,25 +18,24 @@ double emptyBorder(const LightDepth& depth) {
 }
 
 struct WidthPasses {
-  const LightFrame& frame;
+  PassPlan& plan;
   std::string prefix;
   int side = 0;
   std::uint64_t contentKey = 0;
   framegraph::ResourceId occlusion;
 
   framegraph::ResourceId addTarget(const std::string& name, framegraph::Lifetime lifetime) const {
-    return frame.graph.addResource({.name = prefix + name,
-                                    .width = side,
-                                    .height = side,
-                                    .lifetime = lifetime,
-                                    .filter = lifetime == framegraph::Lifetime::persistent
-                                                  ? framegraph::Filter::linear
-                                                  : framegraph::Filter::nearest});
+    return plan.addImage({.name = prefix + name,
+                          .width = side,
+                          .height = side,
+                          .lifetime = lifetime,
+                          .filter = lifetime == framegraph::Lifetime::persistent
+                                        ? framegraph::Filter::linear
+                                        : framegraph::Filter::nearest});
   }
 };
 
-Result<framegraph::ResourceId> declareGpuSteps(const WidthPasses& passes,
-                                               const std::vector<WidthStep>& steps) {
+framegraph::ResourceId planGpuSteps(const WidthPasses& passes, const std::vector<WidthStep>& steps) {
   framegraph::ResourceId source = passes.occlusion;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const bool last = i + 1 == steps.size();
@@ -45,70 +43,49 @@ Result<framegraph::ResourceId> declareGpuSteps(const WidthPasses& passes,
     const auto target =
         passes.addTarget(name, last ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient);
     const std::size_t count = steps[i].neighbours.size();
-    auto program = passes.frame.programs.get(
-        {"screen/fullscreen.vert", "width/width_minimum.frag", {"HS_NEIGHBOURS " + std::to_string(count)}});
-    if (!program) return program.error();
     std::vector<glm::vec4> offsets;
     for (const glm::ivec2& offset : steps[i].neighbours)
       offsets.emplace_back(glm::vec2(offset) / static_cast<float>(passes.side), 0, 0);
-    addFilterPass(passes.frame.graph, {.name = passes.prefix + name,
-                                       .program = *program,
-                                       .source = source,
-                                       .target = target,
-                                       .sourceSize = passes.side,
-                                       .contentKey = last ? passes.contentKey : 0,
-                                       .sampler = "u_source",
-                                       .setUniforms = [offsets, difference = steps[i].differenceBytes](
-                                                          gl::Program& linked, gl::Context& context) {
-                                         linked.set(context, "u_difference", glm::vec4(difference, 0, 0, 0));
-                                         linked.setArray(context, "u_neighbours", offsets.data(),
-                                                         static_cast<int>(offsets.size()));
-                                       }});
+    device::UniformList uniforms;
+    uniforms.set("u_difference", glm::vec4(steps[i].differenceBytes, 0, 0, 0));
+    uniforms.set("u_neighbours", std::move(offsets));
+    addFilterPass(passes.plan, {.name = passes.prefix + name,
+                                .fragmentFile = "width/width_minimum.frag",
+                                .defines = {"HS_NEIGHBOURS " + std::to_string(count)},
+                                .source = source,
+                                .target = target,
+                                .sourceSize = passes.side,
+                                .contentKey = last ? passes.contentKey : 0,
+                                .sampler = "u_source",
+                                .uniforms = std::move(uniforms)});
     source = target;
   }
   return source;
 }
 
-/// Reads the occlusion map back, computes, uploads, and copies into the target, which keeps its content.
-Status computeOnCpu(framegraph::PassContext& context, framegraph::ResourceId occlusion, int side,
-                    const std::vector<WidthStep>& steps, gl::Texture& upload) {
-  gl::Context& gl = context.encoder.context();
-  auto framebuffer = gl::Framebuffer::create(gl, {.color = &context.texture(occlusion)});
-  if (!framebuffer) return framebuffer.error();
-  const std::size_t texels = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-  std::vector<std::uint8_t> pixels(texels * 4);
-  context.encoder.readPixels(*framebuffer, {0, 0, side, side}, pixels.data());
-  std::vector<std::uint8_t> map(texels);
-  for (std::size_t i = 0; i < texels; ++i) map[i] = pixels[4 * i];
+/// The same on the red channel of what was read back.
+void computeOnCpu(std::vector<std::uint8_t>& rgba, int side, const std::vector<WidthStep>& steps) {
+  std::vector<std::uint8_t> map(rgba.size() / 4);
+  for (std::size_t i = 0; i < map.size(); ++i) map[i] = rgba[4 * i];
   widthMapOnCpu(map, side, steps);
-  for (std::size_t i = 0; i < texels; ++i) std::fill_n(&pixels[4 * i], 4, map[i]);
-  auto texture = gl::Texture::create(gl, {.width = side, .height = side}, pixels.data());
-  if (!texture) return texture.error();
-  upload = std::move(texture).value();
-  return {};
+  for (std::size_t i = 0; i < map.size(); ++i) std::fill_n(&rgba[4 * i], 4, map[i]);
 }
 
-Result<framegraph::ResourceId> declareCpuSteps(const WidthPasses& passes,
-                                               const std::vector<WidthStep>& steps) {
-  auto program = passes.frame.programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
-  if (!program) return program.error();
+framegraph::ResourceId planCpuSteps(const WidthPasses& passes, const std::vector<WidthStep>& steps) {
   const auto target = passes.addTarget("map", framegraph::Lifetime::persistent);
-  framegraph::PassDesc pass{.name = passes.prefix + "map on the CPU",
-                            .stage = framegraph::PassStage::mask,
-                            .reads = {passes.occlusion}};
-  pass.writes = {{.resource = target}};
-  pass.contentKey = passes.contentKey;
-  pass.execute = [program = *program, occlusion = passes.occlusion, side = passes.side,
-                  steps](framegraph::PassContext& context) {
-    gl::Texture upload;
-    // Without memory for the copy the target stays clear: no shadow rather than a garbled one.
-    if (!computeOnCpu(context, occlusion, side, steps, upload)) return;
-    context.encoder.useProgram(*program);
-    const gl::TextureBinding binding{program->samplerUnit("u_source"), &upload};
-    context.encoder.bindTextures({&binding, 1});
-    context.encoder.drawFullscreen({});
-  };
-  passes.frame.graph.addPass(std::move(pass));
+  PlannedPass pass{.name = passes.prefix + "map on the CPU",
+                   .writes = {{.resource = target}},
+                   .contentKey = passes.contentKey};
+  pass.draws.push_back(
+      {.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+       .what = ReadBackDraw{.image = passes.occlusion,
+                            .width = passes.side,
+                            .height = passes.side,
+                            .sampler = "u_source",
+                            .change = [side = passes.side, steps](std::vector<std::uint8_t>& rgba) {
+                              computeOnCpu(rgba, side, steps);
+                            }}});
+  passes.plan.passes.push_back(std::move(pass));
   return target;
 }
 }  // namespace
@@ -152,11 +129,9 @@ void widthMapOnCpu(std::vector<std::uint8_t>& map, int side, const std::vector<W
   }
 }
 
-Result<PaperWidthMap> declarePaperWidth(const LightFrame& frame, const LightDepth& depth,
-                                        const std::vector<WidthStep>& steps, WidthBuild build) {
-  WidthPasses passes{.frame = frame,
-                     .prefix = "light " + std::to_string(frame.lightIndex) + " shadow width ",
-                     .side = depth.space.mapSize};
+framegraph::ResourceId planPaperWidth(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                                      const std::vector<WidthStep>& steps, WidthBuild build) {
+  WidthPasses passes{.plan = plan, .prefix = scene.name + " shadow width ", .side = depth.space.mapSize};
   const std::size_t shape = steps.size() * 16 + steps.front().neighbours.size();
   passes.contentKey = combineKeys(depth.contentKey,
                                   shape * 512 + static_cast<std::size_t>(steps.front().differenceBytes) * 2 +
@@ -164,21 +139,17 @@ Result<PaperWidthMap> declarePaperWidth(const LightFrame& frame, const LightDept
   passes.occlusion = passes.addTarget("occlusion", framegraph::Lifetime::transient);
   auto defines = depthDefines(depth.storage);
   if (depth.content == MapContent::castersFarthest) defines.push_back("HS_FARTHEST");
-  auto program = frame.programs.get({"screen/fullscreen.vert", "width/width_occlusion.frag", defines});
-  if (!program) return program.error();
-  addFilterPass(frame.graph,
-                {.name = passes.prefix + "occlusion",
-                 .program = *program,
-                 .source = depth.map,
-                 .target = passes.occlusion,
-                 .sourceSize = passes.side,
-                 .sampler = "u_depthMap",
-                 .setUniforms = [border = emptyBorder(depth)](gl::Program& linked, gl::Context& context) {
-                   linked.set(context, "u_casterRange", glm::vec4(0, 0, border, 0));
-                 }});
-  auto map = build == WidthBuild::cpu ? declareCpuSteps(passes, steps) : declareGpuSteps(passes, steps);
-  if (!map) return map.error();
-  return PaperWidthMap{.occlusion = passes.occlusion, .map = *map};
+  device::UniformList uniforms;
+  uniforms.set("u_casterRange", glm::vec4(0, 0, emptyBorder(depth), 0));
+  addFilterPass(plan, {.name = passes.prefix + "occlusion",
+                       .fragmentFile = "width/width_occlusion.frag",
+                       .defines = std::move(defines),
+                       .source = depth.map,
+                       .target = passes.occlusion,
+                       .sourceSize = passes.side,
+                       .sampler = "u_depthMap",
+                       .uniforms = std::move(uniforms)});
+  return build == WidthBuild::cpu ? planCpuSteps(passes, steps) : planGpuSteps(passes, steps);
 }
 
 }  // namespace halfshadow::techniques

@@ -28,13 +28,8 @@ void widthMapOnCpu(std::vector<std::uint8_t>& map, int side, const std::vector<W
 
 enum class WidthBuild { gpu, cpu };
 
-struct PaperWidthMap {
-  framegraph::ResourceId occlusion;
-  framegraph::ResourceId map;  ///< shadow width in all channels, linear filter
-};
-/// Declares occlusion map and width map. The CPU build reads the occlusion map back, which stalls the
-/// pipeline: it exists because the paper measures it.
-Result<PaperWidthMap> declarePaperWidth(const LightFrame& frame, const LightDepth& depth,
-                                        const std::vector<WidthStep>& steps, WidthBuild build);
+/// Adds the passes; answers with the map: shadow width in all channels, linear filter.
+framegraph::ResourceId planPaperWidth(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                                      const std::vector<WidthStep>& steps, WidthBuild build);
 
 }  // namespace halfshadow::techniques

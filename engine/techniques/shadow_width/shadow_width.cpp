@@ -3,8 +3,9 @@
 #include "techniques/shadow_width/shadow_width.hpp"
 
 #include <algorithm>
-#include <map>
+#include <bit>
 
+#include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
 #include "techniques/shadow_width/attenuation.hpp"
 #include "techniques/shadow_width/paper_width.hpp"
@@ -103,115 +104,97 @@ class ShadowWidth final : public Technique {
          "faces of casters in the depth map: back hardens the edges where casters overlap, and no caster "
          "shadows itself (paper)"}};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
     // A light without size has no widths to get wrong; the paper's widths are its own.
-    if (frame.fit.halfSize == glm::dvec2(0.0) || frame.settings.choice("shadow-width.preset") == "paper")
+    if (scene.fit().halfSize == glm::dvec2(0.0) || scene.settings.choice("shadow-width.preset") == "paper")
       return std::nullopt;
-    return sampledWhereCastersSpread(frame, kWidestSpread);
+    return sampledWhereCastersSpread(scene, kWidestSpread);
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    return frame.settings.choice("shadow-width.preset") == "paper" ? declarePaper(frame)
-                                                                   : declareSigned(frame);
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
   }
-  void contextLost() override { attenuationMaps_.clear(); }
 
  private:
-  static Result<ReceiverShading> declareSigned(const LightFrame& frame) {
-    auto depth = declareLightDepth(frame, MapContent::casters);
-    if (!depth) return depth.error();
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "width/shadow_width.frag");
-    if (frame.fit.halfSize == glm::dvec2(0.0)) {
-      shading.defines.push_back("HS_POINT_LIGHT");
-      return shading;
-    }
-    auto map = declareSignedWidth(frame, *depth);
-    if (!map) return map.error();
-    shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-    addSignedWidth(frame, shading, *depth, *map);
-    if (frame.settings.choice("shadow-width.corners") == "on") {
-      shading.defines.push_back("HS_CORNERS");
-      addWidthBoxes(shading, *map);
-    }
-    return shading;
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    return scene.settings.choice("shadow-width.preset") == "paper" ? planPaper(scene, plan)
+                                                                   : planSigned(scene, plan);
   }
 
-  Result<ReceiverShading> declarePaper(const LightFrame& frame) {
-    const bool backFaces = frame.settings.choice("shadow-width.faces") == "back";
-    auto depth = declareLightDepth(frame, backFaces ? MapContent::castersFarthest : MapContent::casters);
-    if (!depth) return depth.error();
-    const int neighbours = frame.settings.choice("shadow-width.neighbours") == "3" ? 3 : 6;
-    const WidthBuild build =
-        frame.settings.choice("shadow-width.build") == "cpu" ? WidthBuild::cpu : WidthBuild::gpu;
-    const std::vector<WidthStep> steps = widthSteps(neighbours, frame.settings.integer("shadow-width.start"));
-    auto width = declarePaperWidth(frame, *depth, steps, build);
-    if (!width) return width.error();
+  static Status planSigned(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "width/shadow_width.frag");
+    if (scene.fit().halfSize == glm::dvec2(0.0)) {
+      shading.defines.push_back("HS_POINT_LIGHT");
+      return {};
+    }
+    const SignedWidthMap map = planSignedWidth(scene, plan, depth);
+    shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+    addSignedWidth(scene, shading, depth, map);
+    if (scene.settings.choice("shadow-width.corners") == "on") {
+      shading.defines.push_back("HS_CORNERS");
+      addWidthBoxes(shading, map);
+    }
+    return {};
+  }
 
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "width/shadow_width.frag");
+  static Status planPaper(const LightScene& scene, PassPlan& plan) {
+    const bool backFaces = scene.settings.choice("shadow-width.faces") == "back";
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan,
+                                            backFaces ? MapContent::castersFarthest : MapContent::casters);
+    const int neighbours = scene.settings.choice("shadow-width.neighbours") == "3" ? 3 : 6;
+    const WidthBuild build =
+        scene.settings.choice("shadow-width.build") == "cpu" ? WidthBuild::cpu : WidthBuild::gpu;
+    const std::vector<WidthStep> steps = widthSteps(neighbours, scene.settings.integer("shadow-width.start"));
+    const framegraph::ResourceId width = planPaperWidth(scene, plan, depth, steps, build);
+
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "width/shadow_width.frag");
     shading.defines.push_back("HS_PAPER");
-    shading.textures.push_back({.sampler = "u_widthMap", .resource = width->map});
-    Attenuation constants{.scale = frame.settings.real("shadow-width.scale"),
-                          .bias = frame.settings.real("shadow-width.offset")};
+    shading.textures.push_back({.sampler = "u_widthMap", .resource = width});
+    Attenuation constants{.scale = scene.settings.real("shadow-width.scale"),
+                          .bias = scene.settings.real("shadow-width.offset")};
     // Shadow depth 1 is the distance from the nearest caster to the farthest receiver of the map.
-    const MapSpace& space = depth->space;
-    const double farthest = std::max(frame.receiverFarDistance, frame.fit.farDistance);
+    const MapSpace& space = depth.space;
+    const double farthest = std::max(scene.receiverFarDistance, scene.fit().farDistance);
     const double range = std::max(farthest - space.nearDistance, 1e-6 * farthest);
     if (constants.scale == 0.0)
-      constants.scale = scaleOfLight(frame, space, range, constants.bias, steps.front().differenceBytes);
-    if (frame.settings.choice("shadow-width.attenuation") == "texture") {
-      auto table = attenuationMap(frame, constants);
-      if (!table) return table.error();
+      constants.scale = scaleOfLight(scene, space, range, constants.bias, steps.front().differenceBytes);
+    if (scene.settings.choice("shadow-width.attenuation") == "texture") {
       shading.defines.push_back("HS_ATTENUATION_TEXTURE");
-      shading.textures.push_back({.sampler = "u_attenuationMap", .texture = *table});
+      shading.textures.push_back({.sampler = "u_attenuationMap", .own = addAttenuationMap(plan, constants)});
     }
     const glm::vec4 uniform(space.nearDistance / range, constants.scale, 1.0 + constants.bias,
                             space.depthUnit);
-    shading.setUniforms = [uniform, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                            gl::Context& context) {
-      inner(program, context);
-      program.set(context, "u_attenuation", uniform);
-    };
-    return shading;
+    shading.uniforms.set("u_attenuation", uniform);
+    return {};
   }
 
   /// c_scale with which the light is gone where the inner half of its penumbra ends, for occluders at the
   /// farthest caster and receivers at the map's end.
-  static double scaleOfLight(const LightFrame& frame, const MapSpace& space, double range, double bias,
+  static double scaleOfLight(const LightScene& scene, const MapSpace& space, double range, double bias,
                              int differenceBytes) {
     const double kernelTexels =
         std::min(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) * space.nearDistance;
-    const double farthest = std::max(frame.receiverFarDistance, frame.fit.farDistance);
+    const double farthest = std::max(scene.receiverFarDistance, scene.fit().farDistance);
     const double widthPerDepth =
-        0.5 * kernelTexels * range / (frame.fit.farDistance * farthest) * differenceBytes / 255.0;
+        0.5 * kernelTexels * range / (scene.fit().farDistance * farthest) * differenceBytes / 255.0;
     // A light without size leaves a hard edge: the bound keeps c_scale a number of fp16. The largest width
     // that the map can hold, 1, is dark at every depth, else a coarse start difference would leave no umbra.
     return (1.0 + bias) * std::clamp(1.0 / std::max(widthPerDepth, 1e-9), 1.0, 1024.0);
   }
 
   /// Each light has its own: constants follow from its size and place.
-  struct AttenuationMap {
-    gl::Texture texture;
-    Attenuation constants;
-  };
-
-  /// Valid until the context is lost.
-  Result<const gl::Texture*> attenuationMap(const LightFrame& frame, const Attenuation& constants) {
-    AttenuationMap& map = attenuationMaps_[frame.lightIndex];
-    const bool same = constants.scale == map.constants.scale && constants.bias == map.constants.bias;
-    if (!map.texture || !same) {
-      const std::vector<std::uint8_t> table = attenuationTable(constants);
-      auto made = gl::Texture::create(frame.context,
-                                      {.width = kAttenuationSide,
-                                       .height = kAttenuationSide,
-                                       .format = gl::TextureFormat::luminance8,
-                                       .filter = gl::TextureFilter::linear},
-                                      table.data());
-      if (!made) return made.error();
-      map = {std::move(made).value(), constants};
-    }
-    return static_cast<const gl::Texture*>(&map.texture);
+  static std::uint32_t addAttenuationMap(PassPlan& plan, const Attenuation& constants) {
+    const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+    return plan.addTexture({.name = "attenuation",
+                            .desc = {.width = kAttenuationSide,
+                                     .height = kAttenuationSide,
+                                     .format = device::TextureFormat::luminance8,
+                                     .filter = device::TextureFilter::linear},
+                            .key = combineKeys(bits(constants.scale), bits(constants.bias)),
+                            .pixels = [constants] { return attenuationTable(constants); }});
   }
-
-  std::map<int, AttenuationMap> attenuationMaps_;
 };
 }  // namespace
 

@@ -34,12 +34,12 @@ struct SignedWidthMap {
 /// where the light's kernel is a square of the map, 1 on small maps.
 glm::dvec2 depthTexelsPerWidthTexel(const MapSpace& space);
 
-/// Declares the passes: coverage, seeds, jump flooding, finish. Their content is kept while light and casters
+/// Adds the passes: coverage, seeds, jump flooding, finish. Their content is kept while light and casters
 /// are.
-Result<SignedWidthMap> declareSignedWidth(const LightFrame& frame, const LightDepth& depth);
+SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const LightDepth& depth);
 
 /// Adds the map's texture and uniforms to a receiver program that reads it.
-void addSignedWidth(const LightFrame& frame, ReceiverShading& shading, const LightDepth& depth,
+void addSignedWidth(const LightScene& scene, ReceiverShading& shading, const LightDepth& depth,
                     const SignedWidthMap& map);
 /// The same for the boxes.
 void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map);

@@ -6,7 +6,8 @@
 
 #include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
-#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -44,75 +45,73 @@ class Vsm final : public Technique {
     if (capabilities.has(device::Capability::highp)) return {};
     return {false, "highp: the variance of two moments is below what fp16 resolves; use pcf or pcss-mip"};
   }
-  std::optional<StandIn> standIn(const LightFrame& frame) const override {
-    return sampledWhereCastersSpread(frame, kWidestSpread);
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    return sampledWhereCastersSpread(scene, kWidestSpread);
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto depth = declareLightDepth(frame, MapContent::castersAndReceivers);
-    if (!depth) return depth.error();
-    const bool bytes = frame.settings.choice("vsm.storage") == "8";
-    const MapSpace& space = depth->space;
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<PlainPlanner<&plan>>();
+  }
+
+ private:
+  static Status plan(const LightScene& scene, PassPlan& plan) {
+    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::castersAndReceivers);
+    const bool bytes = scene.settings.choice("vsm.storage") == "8";
+    const MapSpace& space = depth.space;
     // Beyond the casters by half their distance, or beyond the farthest receiver, both sides of the
     // comparison are clamped; no nearer than the casters' own range again, so that what lies close behind
     // them is told apart.
-    const planner::LightFit& fit = frame.fit;
-    const double beyond = std::max(frame.receiverFarDistance, 2.0 * fit.farthestCaster - fit.nearestCaster);
+    const planner::LightFit& fit = scene.fit();
+    const double beyond = std::max(scene.receiverFarDistance, 2.0 * fit.farthestCaster - fit.nearestCaster);
     const double deepest = std::min(1.5 * fit.farthestCaster, beyond);
     // As many digits as single precision has at that distance.
     const double extent = std::max(deepest - fit.nearestCaster, 1e-6 * deepest);
     const double quantum = bytes ? 1.0 / 255.0 : 1.0 / 65535.0;
-    const double knob = frame.settings.real("bias");
+    const double knob = scene.settings.real("bias");
     const glm::vec4 range(fit.nearestCaster / fit.nearDistance - 1.0, fit.nearDistance / extent,
                           2.0 * quantum, knob * 1.5 * quantum);
 
     std::vector<std::string> storage;
     if (bytes) storage.push_back("HS_MOMENTS_8");
-    auto momentDefines = depthDefines(depth->storage);
+    auto momentDefines = depthDefines(depth.storage);
     momentDefines.insert(momentDefines.end(), storage.begin(), storage.end());
     auto blurDefines = storage;
-    blurDefines.push_back("HS_KERNEL " + frame.settings.text("vsm.size"));
-    auto moments = frame.programs.get({"screen/fullscreen.vert", "map/vsm_moments.frag", momentDefines});
-    if (!moments) return moments.error();
-    auto blur = frame.programs.get({"screen/fullscreen.vert", "map/vsm_blur.frag", blurDefines});
-    if (!blur) return blur.error();
+    blurDefines.push_back("HS_KERNEL " + scene.settings.text("vsm.size"));
 
     std::uint64_t key =
-        combineKeys(depth->contentKey, (bytes ? 0x8u : 0x16u) + 256u * frame.settings.integer("vsm.size"));
-    framegraph::ResourceId source = depth->map;
+        combineKeys(depth.contentKey, (bytes ? 0x8u : 0x16u) + 256u * scene.settings.integer("vsm.size"));
+    framegraph::ResourceId source = depth.map;
     const char* names[] = {" moments", " moments blurred along s", " moments blurred"};
     for (int step = 0; step < 3; ++step) {
-      const std::string name = "light " + std::to_string(frame.lightIndex) + names[step];
+      const std::string name = scene.name + names[step];
       const bool last = step == 2;
-      const auto target = frame.graph.addResource(
-          {.name = name,
-           .width = space.mapSize,
-           .height = space.mapSize,
-           .lifetime = framegraph::Lifetime::persistent,
-           .filter = last && bytes ? framegraph::Filter::linear : framegraph::Filter::nearest});
+      const auto target =
+          plan.addImage({.name = name,
+                         .width = space.mapSize,
+                         .height = space.mapSize,
+                         .lifetime = framegraph::Lifetime::persistent,
+                         .filter = last && bytes ? framegraph::Filter::linear : framegraph::Filter::nearest});
       const glm::vec4 direction(step == 1 ? 1 : 0, step == 2 ? 1 : 0, 0, 0);
-      addFilterPass(frame.graph,
+      device::UniformList uniforms;
+      uniforms.set("u_momentRange", range);
+      uniforms.set("u_direction", direction);
+      addFilterPass(plan,
                     {.name = name,
-                     .program = step == 0 ? *moments : *blur,
+                     .fragmentFile = step == 0 ? "map/vsm_moments.frag" : "map/vsm_blur.frag",
+                     .defines = step == 0 ? momentDefines : blurDefines,
                      .source = source,
                      .target = target,
                      .sourceSize = space.mapSize,
                      .contentKey = combineKeys(key, step),
-                     .sampler = step == 0 ? gl::UniformKey("u_depthMap") : gl::UniformKey("u_source"),
-                     .setUniforms = [range, direction](gl::Program& program, gl::Context& context) {
-                       program.set(context, "u_momentRange", range);
-                       program.set(context, "u_direction", direction);
-                     }});
+                     .sampler = step == 0 ? device::UniformKey("u_depthMap") : device::UniformKey("u_source"),
+                     .uniforms = std::move(uniforms)});
       source = target;
     }
-    ReceiverShading shading = mapReceiverShading(frame, *depth, "map/vsm.frag");
+    ReceiverShading& shading = plan.shading;
+    shading = mapReceiverShading(scene, plan, depth, "map/vsm.frag");
     shading.textures[0] = {.sampler = "u_moments", .resource = source};
     shading.defines.insert(shading.defines.end(), storage.begin(), storage.end());
-    shading.setUniforms = [range, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                          gl::Context& context) {
-      inner(program, context);
-      program.set(context, "u_momentRange", range);
-    };
-    return shading;
+    shading.uniforms.set("u_momentRange", range);
+    return {};
   }
 };
 }  // namespace

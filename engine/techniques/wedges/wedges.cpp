@@ -140,7 +140,7 @@ class ProbabilisticWedges final : public Technique {
   /// What the batch's casters can shadow on the screen.
   static std::vector<gl::Rect> touched(const LightFrame& frame, const WedgeVolumes& volumes,
                                        std::uint32_t batch) {
-    const View& view = frame.view;
+    const View& view = frame.screen;
     const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
     std::vector<gl::Rect> rects;
     for (const outlines::WedgeCaster& caster : volumes.pieces.casters) {

@@ -16,7 +16,7 @@ constexpr gl::BlendState kLargest{.enabled = true,
                                   .equation = gl::BlendEquation::max,
                                   .source = gl::BlendFactor::one,
                                   .destination = gl::BlendFactor::one};
-using Reads = std::vector<ReceiverTexture>;
+using Reads = std::vector<TextureRead>;
 
 /// Declares the passes of one light, batch by batch.
 class VbufferPasses {
@@ -201,7 +201,7 @@ class VbufferPasses {
 
   /// Sides of the second half take the place of the first's.
   static Reads secondHalf(Reads reads, const ResourceId (&sides)[4]) {
-    for (ReceiverTexture& read : reads) {
+    for (TextureRead& read : reads) {
       if (read.resource == sides[0])
         read.resource = sides[2];
       else if (read.resource == sides[1])
@@ -214,7 +214,7 @@ class VbufferPasses {
     if (request.halves) request.defines.push_back("HS_HALVES");
     framegraph::PassDesc pass = describe(request.name, request.target, request.batch);
     pass.reads = {depth_.packed};
-    for (const ReceiverTexture& read : request.reads) pass.reads.push_back(read.resource);
+    for (const TextureRead& read : request.reads) pass.reads.push_back(read.resource);
     framegraph::ClearValue clear;
     std::fill_n(clear.color, 4, request.clear);
     pass.writes = {
@@ -231,12 +231,12 @@ class VbufferPasses {
       if (!linked) return linked.error();
       copy = *linked;
     }
-    pass.execute = [programs = *programs, copy, &draws = draws_, depth = depth_, &view = frame_.view, request,
-                    second = secondHalf(request.reads, sides_)](framegraph::PassContext& context) {
+    pass.execute = [programs = *programs, copy, &draws = draws_, depth = depth_, &view = frame_.screen,
+                    request, second = secondHalf(request.reads, sides_)](framegraph::PassContext& context) {
       if (copy) drawImage(context, *copy, request.copied, {});
       const auto draw = [&](const Reads& reads, const std::array<bool, 4>& quadrants) {
         const auto bind = [&](gl::Program& program) {
-          for (const ReceiverTexture& read : reads) {
+          for (const TextureRead& read : reads) {
             const gl::TextureBinding binding{program.samplerUnit(read.sampler),
                                              &context.texture(read.resource)};
             context.encoder.bindTextures({&binding, 1});

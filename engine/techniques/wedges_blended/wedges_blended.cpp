@@ -144,7 +144,7 @@ class WedgesBlended final : public Technique {
     if (frame.settings.choice("wedges-blended.cog") == "on") shading.defines.push_back("HS_CENTRES");
     lists.provide(frame, shading);
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
-    if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
+    if (preferredSkip(frame) == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
     return shading;
   }
 

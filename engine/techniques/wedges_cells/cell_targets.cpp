@@ -59,7 +59,7 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
                  {.resource = depth.depthTest,
                   .point = framegraph::AttachmentPoint::depth,
                   .initial = framegraph::InitialContent::keep}};
-  pass.execute = [programs = *programs, &draws, depth, &view = frame.view, list = target.draws,
+  pass.execute = [programs = *programs, &draws, depth, &view = frame.screen, list = target.draws,
                   blend = product == CellProduct::blended ? kMultiply : gl::BlendState{}](
                      framegraph::PassContext& context) {
     for (const CellTarget::Draw& draw : list) {
@@ -72,13 +72,13 @@ Status declareTarget(const LightFrame& frame, const CasterDraws& draws, const Re
 }
 
 /// Eight targets and a base colour are more textures than a pass may read: their mean is taken first.
-Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<const ReceiverTexture> cells) {
+Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<const TextureRead> cells) {
   auto program = frame.programs.get({"screen/fullscreen.vert", "list/cell_mean.frag", {}});
   if (!program) return program.error();
   const framegraph::ResourceId mean = screenImage(frame, "mean of cells");
   framegraph::PassDesc pass{.name = wedgePassName(frame, "mean of cells"),
                             .stage = framegraph::PassStage::receiverPrepass};
-  for (const ReceiverTexture& target : cells) pass.reads.push_back(target.resource);
+  for (const TextureRead& target : cells) pass.reads.push_back(target.resource);
   pass.writes = {{.resource = mean,
                   .point = framegraph::AttachmentPoint::color,
                   .initial = framegraph::InitialContent::dontCare}};
@@ -86,7 +86,7 @@ Result<framegraph::ResourceId> declareMean(const LightFrame& frame, std::span<co
                   cells = std::vector(cells.begin(), cells.end())](framegraph::PassContext& context) {
     context.encoder.useProgram(*program);
     std::vector<gl::TextureBinding> bindings;
-    for (const ReceiverTexture& target : cells) {
+    for (const TextureRead& target : cells) {
       bindings.push_back({program->samplerUnit(target.sampler), &context.texture(target.resource)});
     }
     context.encoder.bindTextures(bindings);
@@ -106,7 +106,7 @@ Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws&
   auto depth = declareReceiverDepth(frame, ReceiverAlpha::facets);
   if (!depth) return depth.error();
   std::vector<CellTarget> targets = targetsOf(cells);
-  std::vector<ReceiverTexture> textures;
+  std::vector<TextureRead> textures;
   for (std::size_t t = 0; t < targets.size(); ++t) {
     const std::string name = "cells " + std::to_string(t);
     targets[t].image = screenImage(frame, name);

@@ -107,7 +107,7 @@ Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
   shading.defines = {"HS_CELLS " + frame.settings.choice("wedges-cells.bytes")};
   lists.provide(frame, shading);
   // Most fragments have no list; a loop that ends at once still costs a round on some devices.
-  if (frame.preferredSkip == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
+  if (preferredSkip(frame) == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
   return shading;
 }
 }  // namespace

@@ -162,7 +162,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     for (const DrawItem& item : frame.receivers) {
       if (!isListed(item, request)) continue;
       Receiver& cached = receivers_[item.geometry];
-      const bool seenFromBehind = maySeeBehind(frame.view, item);
+      const bool seenFromBehind = maySeeBehind(frame.screen, item);
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
         cached.revision = item.revision;
         cached.seenFromBehind = seenFromBehind;
@@ -232,8 +232,8 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   shading.mapFromWorld = loops_.space().homogeneousFromWorld();
   const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.desc().width, tiles_.desc().height);
   const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
-  const std::array<glm::vec4, 3> rays = pixelRays(frame.view, shading.mapFromWorld);
-  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(frame.view.eyeWorld, 1.0));
+  const std::array<glm::vec4, 3> rays = pixelRays(frame.screen, shading.mapFromWorld);
+  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(frame.screen.eyeWorld, 1.0));
   const glm::vec4 place = listPlace(frame, loops_.minHeight());
   shading.setUniforms = [others = std::move(shading.setUniforms), rays, eye, place,
                          texel = glm::vec4(tileTexel, recordTexel)](gl::Program& program,

@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 #include "techniques/parts/lists/light_loops.hpp"
 #include "techniques/parts/lists/list_textures.hpp"
 

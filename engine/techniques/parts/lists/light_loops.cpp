@@ -52,7 +52,7 @@ bool LightLoops::update(const LightFrame& frame, std::span<const outlines::SubLi
   if (key_ == key) return false;
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
-  const double unit = std::exp2(std::ceil(std::log2(frame.fit.farDistance)));
+  const double unit = std::exp2(std::ceil(std::log2(frame.fit().farDistance)));
   const double share =
       frame.capabilities.has(device::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
   const double minHalf = share * nearestDistance(frame.casters, frame.light.centerWorld);

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "outlines/caster_loops.hpp"
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

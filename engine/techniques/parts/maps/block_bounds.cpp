@@ -4,37 +4,19 @@
 #include <cmath>
 
 #include "base/keys.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 #include "techniques/parts/maps/level_atlas.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
-
-void addFilterPass(framegraph::Graph& graph, FilterPass filter) {
-  framegraph::PassDesc pass{
-      .name = filter.name, .stage = framegraph::PassStage::mask, .reads = {filter.source}};
-  pass.writes = {{.resource = filter.target, .initial = framegraph::InitialContent::dontCare}};
-  pass.contentKey = filter.contentKey;
-  pass.execute = [filter](framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    encoder.useProgram(*filter.program);
-    const float size = static_cast<float>(filter.sourceSize);
-    filter.program->set(encoder.context(), "u_sourceSize",
-                        glm::vec4(size, 1.0f / size, filter.targetSize, 0));
-    if (filter.setUniforms) filter.setUniforms(*filter.program, encoder.context());
-    const gl::TextureBinding binding{filter.program->samplerUnit(filter.sampler),
-                                     &context.texture(filter.source)};
-    encoder.bindTextures({&binding, 1});
-    encoder.drawFullscreen({});
-  };
-  graph.addPass(std::move(pass));
-}
 
 std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels) {
   return {"HS_REACH_S " + std::to_string(reachS), "HS_REACH_T " + std::to_string(reachT),
           "HS_CELL " + std::to_string(cellTexels)};
 }
 
-Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth& depth,
-                                       double radiusTexels) {
+BlockBounds planBlockBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                            double radiusTexels) {
   // Without highp a tap's offset along the receiver's plane is off by up to .01 of the kernel's radius.
   const double rounding = depth.storage == DepthStorage::packed16 ? 0.02 * radiusTexels : 0.0;
   BlockBounds bounds{.radiusTexels = radiusTexels + rounding};
@@ -45,7 +27,7 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
   while (bounds.blockTexels * kLongestReach < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
   const int reach = std::max(1, static_cast<int>(std::ceil(radiusTexels / bounds.blockTexels)));
   int size = depth.space.mapSize;
-  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " block bounds ";
+  const std::string prefix = scene.name + " block bounds ";
   framegraph::ResourceId source = depth.map;
   int remaining = bounds.blockTexels;
   bool fromDepth = true;
@@ -54,38 +36,36 @@ Result<BlockBounds> declareBlockBounds(const LightFrame& frame, const LightDepth
     auto defines = depthDefines(depth.storage);
     defines.push_back("HS_FACTOR " + std::to_string(factor));
     if (fromDepth) defines.push_back("HS_FROM_DEPTH");
-    auto program = frame.programs.get({"screen/fullscreen.vert", "map/block_bounds.frag", defines});
-    if (!program) return program.error();
     const int targetSize = (size + factor - 1) / factor;
     const std::string name = prefix + std::to_string(targetSize);
-    const auto target = frame.graph.addResource({.name = name,
-                                                 .width = targetSize,
-                                                 .height = targetSize,
-                                                 .lifetime = framegraph::Lifetime::persistent});
+    const auto target = plan.addImage({.name = name,
+                                       .width = targetSize,
+                                       .height = targetSize,
+                                       .lifetime = framegraph::Lifetime::persistent});
     const std::uint64_t key = combineKeys(depth.contentKey, static_cast<std::uint64_t>(targetSize));
-    addFilterPass(frame.graph, {.name = name,
-                                .program = *program,
-                                .source = source,
-                                .target = target,
-                                .sourceSize = size,
-                                .targetSize = targetSize,
-                                .contentKey = key,
-                                .sampler = "u_source"});
+    addFilterPass(plan, {.name = name,
+                         .fragmentFile = "map/block_bounds.frag",
+                         .defines = defines,
+                         .source = source,
+                         .target = target,
+                         .sourceSize = size,
+                         .targetSize = targetSize,
+                         .contentKey = key,
+                         .sampler = "u_source"});
     source = target;
     size = targetSize;
     remaining /= factor;
     fromDepth = false;
   }
-  auto program = frame.programs.get(
-      {"screen/fullscreen.vert", "map/block_dilate.frag", dilationDefines(reach, reach, 1)});
-  if (!program) return program.error();
   const std::string name = prefix + "dilated";
-  bounds.map = frame.graph.addResource(
+  bounds.map = plan.addImage(
       {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
   const std::uint64_t key =
       combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
-  const gl::Rect whole{0, 0, size, size};
-  addLevelPass(frame.graph, name, bounds.map, {{*program, {source, size, size, whole}, whole}}, key);
+  const Rect whole{0, 0, size, size};
+  addLevelPass(
+      plan, name, bounds.map,
+      {{"map/block_dilate.frag", dilationDefines(reach, reach, 1), {source, size, size, whole}, whole}}, key);
   return bounds;
 }
 
@@ -93,11 +73,7 @@ void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds) {
   shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds.map});
   // A hundredth of a texel more than the kernel: rounding of the plane offset must not fall outside.
   const glm::vec4 mask(bounds.radiusTexels + 0.01, 0, 0, 0);
-  shading.setUniforms = [mask, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                       gl::Context& context) {
-    inner(program, context);
-    program.set(context, "u_mask", mask);
-  };
+  shading.uniforms.set("u_mask", mask);
 }
 
 }  // namespace halfshadow::techniques

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/keys.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 #include "techniques/parts/maps/level_atlas.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -12,7 +14,7 @@ namespace {
 constexpr int kReduction = 8;
 }  // namespace
 
-Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const LightDepth& depth) {
+Result<BlockerPyramid> planBlockerPyramid(const LightScene& scene, PassPlan& plan, const LightDepth& depth) {
   BlockerPyramid pyramid;
   LevelAtlas atlas;
   while (atlas.finestSide * 2 * pyramid.texelsPerCell <= depth.space.mapSize) atlas.finestSide *= 2;
@@ -24,16 +26,12 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
   pyramid.cells = atlas.finestSide;
   pyramid.lastLevel = atlas.lastLevel;
 
-  auto occupancy =
-      frame.programs.get({"screen/fullscreen.vert", "map/occupancy.frag", depthDefines(depth.storage)});
-  if (!occupancy) return occupancy.error();
-  const auto reduction = [&](int factor) {
-    return frame.programs.get(
-        {"screen/fullscreen.vert", "map/occupancy_level.frag", {"HS_CELL " + std::to_string(factor)}});
+  const auto reduction = [](int factor, const LevelImage& source, const Rect& target) {
+    return LevelDraw{"map/occupancy_level.frag", {"HS_CELL " + std::to_string(factor)}, source, target};
   };
-  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " blockers";
+  const std::string prefix = scene.name + " blockers";
   const auto persistent = [&](const std::string& name, int width, int height) {
-    return frame.graph.addResource(
+    return plan.addImage(
         {.name = name, .width = width, .height = height, .lifetime = framegraph::Lifetime::persistent});
   };
   const MapSpace& space = depth.space;
@@ -46,36 +44,33 @@ Result<BlockerPyramid> declareBlockerPyramid(const LightFrame& frame, const Ligh
   std::vector<LevelImage> images;
   images.push_back(
       {persistent(prefix + " " + std::to_string(side), side, side), side, side, {0, 0, side, side}});
-  addFilterPass(frame.graph, {.name = prefix + " " + std::to_string(side),
-                              .program = *occupancy,
-                              .source = depth.map,
-                              .target = images.front().image,
-                              .sourceSize = space.mapSize,
-                              .contentKey = combineKeys(depth.contentKey, 0x0cc0u),
-                              .sampler = "u_depthMap",
-                              .setUniforms = [casterRange](gl::Program& program, gl::Context& context) {
-                                program.set(context, "u_casterRange", casterRange);
-                              }});
+  device::UniformList uniforms;
+  uniforms.set("u_casterRange", casterRange);
+  addFilterPass(plan, {.name = prefix + " " + std::to_string(side),
+                       .fragmentFile = "map/occupancy.frag",
+                       .defines = depthDefines(depth.storage),
+                       .source = depth.map,
+                       .target = images.front().image,
+                       .sourceSize = space.mapSize,
+                       .contentKey = combineKeys(depth.contentKey, 0x0cc0u),
+                       .sampler = "u_depthMap",
+                       .uniforms = std::move(uniforms)});
   if (side / kReduction >= 2) {
     // What coarse levels are made of, so that no texel reads hundreds.
-    auto program = reduction(kReduction);
-    if (!program) return program.error();
     const int small = side / kReduction;
     images.push_back(
         {persistent(prefix + " " + std::to_string(small), small, small), small, small, {0, 0, small, small}});
-    addLevelPass(frame.graph, prefix + " " + std::to_string(small), images.back().image,
-                 {{*program, images.front(), images.back().rect}}, combineKeys(depth.contentKey, 0x0cc1u));
+    addLevelPass(plan, prefix + " " + std::to_string(small), images.back().image,
+                 {reduction(kReduction, images.front(), images.back().rect)},
+                 combineKeys(depth.contentKey, 0x0cc1u));
   }
   pyramid.atlas = persistent(prefix + " levels", atlas.width(), atlas.height());
   std::vector<LevelDraw> draws;
   for (int level = 0; level <= atlas.lastLevel; ++level) {
     const LevelImage& image = images.back().imageWidth >= atlas.side(level) ? images.back() : images.front();
-    auto program = reduction(image.imageWidth / atlas.side(level));
-    if (!program) return program.error();
-    draws.push_back({*program, image, atlas.rect(level)});
+    draws.push_back(reduction(image.imageWidth / atlas.side(level), image, atlas.rect(level)));
   }
-  addLevelPass(frame.graph, prefix + " levels", pyramid.atlas, std::move(draws),
-               combineKeys(depth.contentKey, 0xa71a5u));
+  addLevelPass(plan, prefix + " levels", pyramid.atlas, draws, combineKeys(depth.contentKey, 0xa71a5u));
   return pyramid;
 }
 
@@ -86,12 +81,8 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
   const double range = (space.farthestCasterDepth - space.nearestCasterDepth) * unit;
   const glm::vec4 layout(pyramid.cells, pyramid.lastLevel, 1.0 / (pyramid.cells * pyramid.texelsPerCell), 0);
   const glm::vec4 casters(space.nearestCasterDepth * unit, range / 255.0, 0, 0);
-  shading.setUniforms = [layout, casters, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                                  gl::Context& context) {
-    inner(program, context);
-    program.set(context, "u_pyramidLayout", layout);
-    program.set(context, "u_pyramidRange", casters);
-  };
+  shading.uniforms.set("u_pyramidLayout", layout);
+  shading.uniforms.set("u_pyramidRange", casters);
 }
 
 }  // namespace halfshadow::techniques

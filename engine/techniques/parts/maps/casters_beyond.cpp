@@ -49,21 +49,21 @@ Plane planeOf(const DrawItem& receiver, const glm::dvec3& lightWorld) {
 }
 }  // namespace
 
-bool mayHaveCastersBeyond(const LightFrame& frame, const DrawItem& receiver) {
+bool mayHaveCastersBeyond(const LightScene& scene, const DrawItem& receiver) {
   if (receiver.sourceMesh == nullptr) return true;
-  const Plane plane = planeOf(receiver, frame.light.centerWorld);
+  const Plane plane = planeOf(receiver, scene.light.centerWorld);
   if (plane.normal == glm::dvec3(0.0)) return true;
-  return std::ranges::any_of(frame.casters, [&](const DrawItem& caster) {
+  return std::ranges::any_of(scene.casters, [&](const DrawItem& caster) {
     const auto corners = caster.boundsWorld.corners();
     return std::ranges::any_of(corners, [&](const glm::dvec3& corner) { return plane.side(corner) < 0.0; });
   });
 }
 
-void addSelfReceiverSearch(const LightFrame& frame, ReceiverShading& shading) {
+void addSelfReceiverSearch(const LightScene& scene, ReceiverShading& shading) {
   shading.defines.push_back("HS_SEARCH 5");
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-  for (const DrawItem& receiver : frame.receivers) {
-    if (!receiver.casts && mayHaveCastersBeyond(frame, receiver))
+  for (const DrawItem& receiver : scene.receivers) {
+    if (!receiver.casts && mayHaveCastersBeyond(scene, receiver))
       shading.alsoCasting.push_back(receiver.mesh);
   }
 }

@@ -6,12 +6,12 @@
 #include <bit>
 
 #include "base/keys.hpp"
-#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 
 namespace halfshadow::techniques {
 
-Result<EdgeMask> declareEdgeMask(const LightFrame& frame, const LightDepth& depth,
-                                 const EdgeMaskOptions& options) {
+Result<EdgeMask> planEdgeMask(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                              const EdgeMaskOptions& options) {
   const int size = depth.space.mapSize;
   if (!std::has_single_bit(static_cast<unsigned>(size))) {
     return Error{ErrorCode::invalidArgument,
@@ -20,10 +20,6 @@ Result<EdgeMask> declareEdgeMask(const LightFrame& frame, const LightDepth& dept
   }
   auto defines = depthDefines(depth.storage);
   if (options.filter == EdgeFilter::laplacian9) defines.push_back("HS_LAPLACIAN9");
-  auto edges = frame.programs.get({"screen/fullscreen.vert", "map/edge_mask.frag", defines});
-  if (!edges) return edges.error();
-  auto dilate = frame.programs.get({"screen/fullscreen.vert", "map/edge_dilate.frag", {}});
-  if (!dilate) return dilate.error();
 
   glm::vec4 edge(options.strengthPerDepth / depth.space.depthUnit, glm::vec3(options.thresholds));
   if (options.strengthPerDepth <= 0.0) {
@@ -36,23 +32,24 @@ Result<EdgeMask> declareEdgeMask(const LightFrame& frame, const LightDepth& dept
   for (const float value : {edge.x, edge.y, edge.z, edge.w})
     key = combineKeys(key, std::bit_cast<std::uint32_t>(value));
 
-  const std::string prefix = "light " + std::to_string(frame.lightIndex);
-  const auto full = frame.graph.addResource({.name = prefix + " edges",
-                                             .width = size,
-                                             .height = size,
-                                             .lifetime = framegraph::Lifetime::persistent,
-                                             .filter = framegraph::Filter::linearMipNearest,
-                                             .mipmapped = true});
-  addFilterPass(frame.graph, {.name = prefix + " edges",
-                              .program = *edges,
-                              .source = depth.map,
-                              .target = full,
-                              .sourceSize = size,
-                              .contentKey = key,
-                              .sampler = "u_depthMap",
-                              .setUniforms = [edge](gl::Program& program, gl::Context& context) {
-                                program.set(context, "u_edge", edge);
-                              }});
+  const std::string prefix = scene.name;
+  const auto full = plan.addImage({.name = prefix + " edges",
+                                   .width = size,
+                                   .height = size,
+                                   .lifetime = framegraph::Lifetime::persistent,
+                                   .filter = framegraph::Filter::linearMipNearest,
+                                   .mipmapped = true});
+  device::UniformList uniforms;
+  uniforms.set("u_edge", edge);
+  addFilterPass(plan, {.name = prefix + " edges",
+                       .fragmentFile = "map/edge_mask.frag",
+                       .defines = defines,
+                       .source = depth.map,
+                       .target = full,
+                       .sourceSize = size,
+                       .contentKey = key,
+                       .sampler = "u_depthMap",
+                       .uniforms = std::move(uniforms)});
 
   // A bilinear fetch at level l reaches half a texel of that level beyond the nearest one: 2^(l-1) map
   // texels. Above level 4 the box filter of 8-bit mips loses a single edge texel (255 / 4^5 rounds to 0).
@@ -60,18 +57,18 @@ Result<EdgeMask> declareEdgeMask(const LightFrame& frame, const LightDepth& dept
   while (level < 4 && (1 << (level - 1)) < options.radiusTexels - 0.5) ++level;
   const int target = std::max(size >> level, 1);
   EdgeMask mask;
-  mask.mask = frame.graph.addResource({.name = prefix + " edge mask",
-                                       .width = target,
-                                       .height = target,
-                                       .lifetime = framegraph::Lifetime::persistent,
-                                       .filter = framegraph::Filter::linear});
-  addFilterPass(frame.graph, {.name = prefix + " edge mask",
-                              .program = *dilate,
-                              .source = full,
-                              .target = mask.mask,
-                              .sourceSize = size,
-                              .contentKey = combineKeys(key, static_cast<std::uint64_t>(level)),
-                              .sampler = "u_source"});
+  mask.mask = plan.addImage({.name = prefix + " edge mask",
+                             .width = target,
+                             .height = target,
+                             .lifetime = framegraph::Lifetime::persistent,
+                             .filter = framegraph::Filter::linear});
+  addFilterPass(plan, {.name = prefix + " edge mask",
+                       .fragmentFile = "map/edge_dilate.frag",
+                       .source = full,
+                       .target = mask.mask,
+                       .sourceSize = size,
+                       .contentKey = combineKeys(key, static_cast<std::uint64_t>(level)),
+                       .sampler = "u_source"});
   return mask;
 }
 

@@ -23,8 +23,8 @@ struct EdgeMaskOptions {
 struct EdgeMask {
   framegraph::ResourceId mask;  ///< red strong, green medium, blue weak, alpha any; bilinear
 };
-Result<EdgeMask> declareEdgeMask(const LightFrame& frame, const LightDepth& depth,
-                                 const EdgeMaskOptions& options);
+Result<EdgeMask> planEdgeMask(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                              const EdgeMaskOptions& options);
 void addEdgeMask(ReceiverShading& shading, const EdgeMask& mask);
 
 }  // namespace halfshadow::techniques

@@ -49,21 +49,21 @@ bool isLarge(const SeenBox& seen, const planner::LightFit& fit) {
 }
 }  // namespace
 
-LastReceivers lastReceivers(const LightFrame& frame) {
+LastReceivers lastReceivers(const LightScene& scene) {
   LastReceivers last;
   std::vector<SeenBox> seen;
   std::unordered_set<const GpuMesh*> listed;
-  for (const DrawItem& caster : frame.casters) {
-    seen.push_back(seenBox(frame.fit, caster.boundsWorld));
+  for (const DrawItem& caster : scene.casters) {
+    seen.push_back(seenBox(scene.fit(), caster.boundsWorld));
     listed.insert(caster.mesh);
   }
-  for (std::size_t i = 0; i < frame.casters.size(); ++i) {
-    const DrawItem& caster = frame.casters[i];
+  for (std::size_t i = 0; i < scene.casters.size(); ++i) {
+    const DrawItem& caster = scene.casters[i];
     // From within, the faces that face the light are a roof, behind which others receive.
     const bool seenFromWithin =
-        hiddenFaces(caster, frame.view.eyeWorld, frame.view.nearReach) == gl::Cull::none;
+        hiddenFaces(caster, scene.screen.eyeWorld, scene.screen.nearReach) == device::Cull::none;
     const bool ground =
-        caster.receives && isLarge(seen[i], frame.fit) &&
+        caster.receives && isLarge(seen[i], scene.fit()) &&
         (!caster.closed || (!seenFromWithin && std::ranges::any_of(seen, [&](const SeenBox& other) {
           return isBefore(other, seen[i]);
         })));
@@ -74,12 +74,12 @@ LastReceivers lastReceivers(const LightFrame& frame) {
   const auto add = [&](const DrawItem& item) {
     if (listed.insert(item.mesh).second) last.drawn.push_back(item);
   };
-  for (const DrawItem& item : frame.shadowlessReceivers) add(item);
+  for (const DrawItem& item : scene.shadowlessReceivers) add(item);
   // Casters that were dropped, since they shadow nothing, receive all the same.
-  for (const DrawItem& item : frame.receivers) {
+  for (const DrawItem& item : scene.receivers) {
     if (item.casts) add(item);
   }
-  last.contentKey = frame.contentKey;
+  last.contentKey = scene.contentKey;
   for (const auto* list : {&last.drawn, &last.infinite}) {
     for (const DrawItem& item : *list) last.contentKey = combineKeys(last.contentKey, item.revision);
     last.contentKey = combineKeys(last.contentKey, list->size());

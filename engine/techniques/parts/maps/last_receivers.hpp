@@ -26,6 +26,6 @@ struct LastReceivers {
 
 /// A caster that receives is drawn as it lies when it is an open surface, or when another caster in front of
 /// it is seen, from the light's centre, inside its box.
-LastReceivers lastReceivers(const LightFrame& frame);
+LastReceivers lastReceivers(const LightScene& scene);
 
 }  // namespace halfshadow::techniques

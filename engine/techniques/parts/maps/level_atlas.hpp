@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
 
@@ -20,9 +20,9 @@ struct LevelAtlas {
   int width() const { return finestSide + finestSide / 2; }
   int height() const { return finestSide; }
   int side(int level) const { return finestSide >> level; }
-  gl::Rect rect(int level) const {
-    return level == 0 ? gl::Rect{0, 0, side(0), side(0)}
-                      : gl::Rect{finestSide, finestSide - 2 * side(level), side(level), side(level)};
+  Rect rect(int level) const {
+    return level == 0 ? Rect{0, 0, side(0), side(0)}
+                      : Rect{finestSide, finestSide - 2 * side(level), side(level), side(level)};
   }
 };
 
@@ -30,19 +30,20 @@ struct LevelAtlas {
 struct LevelImage {
   framegraph::ResourceId image;
   int imageWidth = 0, imageHeight = 0;
-  gl::Rect rect;
+  Rect rect;
 };
 
 /// One level as it is drawn: `program` reads texels of `source` (sampler u_source, uniforms u_sourceRect and
 /// u_sourceScale) and writes `target`.
 struct LevelDraw {
-  gl::Program* program = nullptr;
+  std::string fragmentFile;
+  std::vector<std::string> defines;
   LevelImage source;
-  gl::Rect target;
+  Rect target;
 };
 
 /// A pass that writes all levels, in the order of `draws`.
-void addLevelPass(framegraph::Graph& graph, std::string name, framegraph::ResourceId target,
-                  std::vector<LevelDraw> draws, std::uint64_t contentKey);
+void addLevelPass(PassPlan& plan, std::string name, framegraph::ResourceId target,
+                  const std::vector<LevelDraw>& draws, std::uint64_t contentKey);
 
 }  // namespace halfshadow::techniques

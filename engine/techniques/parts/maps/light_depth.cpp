@@ -3,6 +3,7 @@
 #include "techniques/parts/maps/light_depth.hpp"
 
 #include "base/keys.hpp"
+#include "techniques/parts/maps/byte_ramp.hpp"
 #include "techniques/parts/maps/last_receivers.hpp"
 
 namespace halfshadow::techniques {
@@ -16,23 +17,22 @@ using framegraph::Format;
 using framegraph::ResourceDesc;
 
 /// Writes of the depth pass; the last sampled one is the map.
-std::vector<Attachment> depthTargets(framegraph::Graph& graph, const std::string& name, int size,
-                                     DepthStorage storage, framegraph::Lifetime lifetime, float emptyDepth,
-                                     framegraph::ResourceId& map) {
+std::vector<Attachment> depthTargets(PassPlan& plan, const ResourceDesc& map, DepthStorage storage,
+                                     float emptyDepth, framegraph::ResourceId& mapImage) {
   const bool isTexture = storage == DepthStorage::texture24 || storage == DepthStorage::texture16;
-  ResourceDesc desc{.name = name, .width = size, .height = size, .lifetime = lifetime};
+  ResourceDesc desc = map;
   if (isTexture) {
     desc.format = storage == DepthStorage::texture24 ? Format::depth24 : Format::depth16;
-    map = graph.addResource(desc);
-    return {{.resource = map, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
+    mapImage = plan.addImage(desc);
+    return {{.resource = mapImage, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
   }
-  map = graph.addResource(desc);
-  const auto depth = graph.addResource({.name = name + " depth test",
-                                        .width = size,
-                                        .height = size,
-                                        .format = Format::depth24,
-                                        .storage = framegraph::Storage::renderbuffer});
-  return {{.resource = map,
+  mapImage = plan.addImage(desc);
+  const auto depth = plan.addImage({.name = map.name + " depth test",
+                                    .width = map.width,
+                                    .height = map.height,
+                                    .format = Format::depth24,
+                                    .storage = framegraph::Storage::renderbuffer});
+  return {{.resource = mapImage,
            .point = AttachmentPoint::color,
            .clear = {.color = {emptyDepth, emptyDepth, emptyDepth, 1}}},
           {.resource = depth, .point = AttachmentPoint::depth, .clear = {.depth = emptyDepth}}};
@@ -56,82 +56,72 @@ const char* contentName(MapContent content) {
   return "";
 }
 
-void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, MapContent content,
-               std::span<const DrawItem> items) {
-  const bool farthest = keepsFarthest(content), averted = content == MapContent::castersFarthest;
-  gl::DrawState state{.depth = {.test = farthest ? gl::Compare::greater : gl::Compare::less, .write = true}};
-  for (const DrawItem& item : items) {
-    // The map looks along +z of a right-handed space, so windings appear turned round.
-    const gl::Cull hidden = hiddenFaces(item, space.originWorld);
-    const gl::Cull turned = hidden == gl::Cull::back ? gl::Cull::front : gl::Cull::back;
-    state.cull = hidden == gl::Cull::none ? hidden : averted ? hidden : turned;
-    program.set(encoder.context(), "u_mapClipFromObject",
-                glm::mat4(space.mapClipFromWorld * item.worldFromObject));
-    item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
-  }
+PlannedDraw depthDraw(const MapSpace& space, DepthStorage storage, MapContent content,
+                      std::span<const DrawItem> items) {
+  PlannedDraw draw{.program = {"map/light_depth.vert", "map/light_depth.frag", depthDefines(storage)}};
+  draw.state.depth = {.test = keepsFarthest(content) ? device::Compare::greater : device::Compare::less,
+                      .write = true};
+  draw.uniforms.set("u_nearDistance", 1.0f);
+  draw.what = MeshDraw{
+      .items = items,
+      .clipFromWorld = space.mapClipFromWorld,
+      .clipFromObject = "u_mapClipFromObject",
+      .faces = content == MapContent::castersFarthest ? MeshDraw::Faces::averted : MeshDraw::Faces::turned,
+      .eyeWorld = space.originWorld};
+  return draw;
 }
 }  // namespace
 
-Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content) {
+LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPlan& plan,
+                          MapContent content) {
   LightDepth depth;
   depth.content = content;
-  depth.storage = depthStorageFor(frame.capabilities);
-  depth.space = makeMapSpace(frame.fit, depth.storage);
+  depth.storage = depthStorageFor(scene.capabilities);
+  depth.space = makeMapSpace(view.fit, depth.storage);
   const bool all = content == MapContent::castersAndReceivers;
   const bool last = content == MapContent::lastReceivers;
-  const bool keyed = frame.mapLifetime == framegraph::Lifetime::persistent;
+  const bool kept = view.contentKey != 0;
   depth.contentKey =
-      !keyed
+      !kept
           ? 0
-          : combineKeys(all ? frame.sceneKey : frame.contentKey,
+          : combineKeys(all ? view.sceneKey : view.contentKey,
                         static_cast<std::uint64_t>(depth.storage) * 4 + static_cast<std::uint64_t>(content));
-  LastReceivers receivers;
+  std::span<const DrawItem> items = view.casters, infinite;
   if (last) {
-    receivers = lastReceivers(frame);
+    LastReceivers receivers = lastReceivers(scene);
     depth.contentKey = combineKeys(depth.contentKey, receivers.contentKey);
+    items = plan.keep(std::move(receivers.drawn));
+    infinite = plan.keep(std::move(receivers.infinite));
   }
-  const std::string name = "light " + std::to_string(frame.lightIndex) + contentName(content) + frame.mapName;
-
-  const gl::Texture* ramp = nullptr;
-  if (depth.storage == DepthStorage::packed16) {
-    auto made = frame.shared.byteRamp(frame.context);
-    if (!made) return made.error();
-    ramp = *made;
-  }
-  auto program =
-      frame.programs.get({"map/light_depth.vert", "map/light_depth.frag", depthDefines(depth.storage)});
-  if (!program) return program.error();
-
-  framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::light};
-  pass.writes = depthTargets(frame.graph, name, frame.fit.mapSize, depth.storage, frame.mapLifetime,
-                             keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
-  pass.contentKey = depth.contentKey;
-  std::vector<DrawItem> items =
-      last ? std::move(receivers.drawn) : std::vector<DrawItem>(frame.casters.begin(), frame.casters.end());
-  if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
-  pass.execute = [program = *program, ramp, space = depth.space, content, items = std::move(items),
-                  infinite = std::move(receivers.infinite)](framegraph::PassContext& context) {
-    gl::Encoder& encoder = context.encoder;
-    encoder.useProgram(*program);
-    program->set(encoder.context(), "u_nearDistance", 1.0f);
-    if (ramp) {
-      const gl::TextureBinding binding{program->samplerUnit("u_byteRamp"), ramp};
-      encoder.bindTextures({&binding, 1});
-    }
-    drawItems(encoder, *program, space, content, items);
-    if (infinite.empty()) return;
-    MapSpace flat = space;
+  PlannedPass pass{.name = scene.name + contentName(content) + view.name,
+                   .stage = framegraph::PassStage::light,
+                   .contentKey = depth.contentKey};
+  pass.writes =
+      depthTargets(plan,
+                   {.name = pass.name,
+                    .width = view.fit.mapSize,
+                    .height = view.fit.mapSize,
+                    .lifetime = kept ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient},
+                   depth.storage, keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
+  pass.draws.push_back(depthDraw(depth.space, depth.storage, content, items));
+  if (all) pass.draws.push_back(depthDraw(depth.space, depth.storage, content, scene.shadowlessReceivers));
+  if (!infinite.empty()) {
+    MapSpace flat = depth.space;
     for (int column = 0; column < 4; ++column)
       flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
+    pass.draws.push_back(depthDraw(flat, depth.storage, content, infinite));
     // The ramp repeats at depth 1.
-    program->set(encoder.context(), "u_nearDistance", 1e-3f);
-    drawItems(encoder, *program, flat, content, infinite);
-  };
-  frame.graph.addPass(std::move(pass));
+    pass.draws.back().uniforms.set("u_nearDistance", 1e-3f);
+  }
+  if (depth.storage == DepthStorage::packed16) {
+    const TextureRead ramp{.sampler = "u_byteRamp", .own = addByteRamp(plan)};
+    for (PlannedDraw& draw : pass.draws) draw.textures.push_back(ramp);
+  }
+  plan.passes.push_back(std::move(pass));
   return depth;
 }
 
-ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth,
+ReceiverShading mapReceiverShading(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
                                    std::string fragmentFile) {
   ReceiverShading shading;
   shading.fragmentFile = std::move(fragmentFile);
@@ -141,12 +131,10 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   shading.mapFromWorld = depth.space.mapFromWorld;
   shading.usesFacetPlane = true;
   shading.textures = {{.sampler = "u_depthMap", .resource = depth.map}};
-  if (depth.storage == DepthStorage::packed16) {
-    if (auto ramp = frame.shared.byteRamp(frame.context))
-      shading.textures.push_back({.sampler = "u_byteRamp", .texture = *ramp});
-  }
+  if (depth.storage == DepthStorage::packed16)
+    shading.textures.push_back({.sampler = "u_byteRamp", .own = addByteRamp(plan)});
   const MapSpace& space = depth.space;
-  const double knob = frame.settings.real("bias");
+  const double knob = scene.settings.real("bias");
   // Without highp the map position itself is off by up to one texel, so every tap counts as "anywhere".
   const double positionError = depth.storage == DepthStorage::packed16 ? 1.0 : 0.0;
   const double size = space.mapSize;
@@ -156,11 +144,9 @@ ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& de
   const glm::vec4 bias(knob * space.quantum * space.depthUnit, knob * (0.1 + positionError),
                        knob * (0.6 + positionError), 0.0);
   const glm::vec4 plane(space.depthUnit, size, size, largestGradient);
-  shading.setUniforms = [map, bias, plane](gl::Program& program, gl::Context& context) {
-    program.set(context, "u_map", map);
-    program.set(context, "u_bias", bias);
-    program.set(context, "u_vertexPlane", plane);
-  };
+  shading.uniforms.set("u_map", map);
+  shading.uniforms.set("u_bias", bias);
+  shading.uniforms.set("u_vertexPlane", plane);
   return shading;
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "techniques/core/technique.hpp"
+#include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
 
@@ -54,14 +54,14 @@ struct LightDepth {
   MapContent content = MapContent::casters;
 };
 /// Declares the depth pass (skipped by the plan while its content key is unchanged).
-Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content);
+LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPlan& plan, MapContent content);
 
 /// Defines of every shader that reads the map on this rung.
 std::vector<std::string> depthDefines(DepthStorage storage);
 
 /// A receiver program that samples the map: defines, textures and uniforms common to all map techniques.
 /// `fragmentFile` and technique defines are the caller's.
-ReceiverShading mapReceiverShading(const LightFrame& frame, const LightDepth& depth,
+ReceiverShading mapReceiverShading(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
                                    std::string fragmentFile);
 
 }  // namespace halfshadow::techniques

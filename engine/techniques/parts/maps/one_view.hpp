@@ -14,6 +14,6 @@ namespace halfshadow::techniques {
 /// things from every point of the light, and its penumbra is as wide as the map. A post beside the lamp, a
 /// shade around it, a caster that the light touches or lies in. For techniques that see all casters from the
 /// light's centre and search penumbrae in that view.
-std::optional<StandIn> standInForOneView(const LightFrame& frame);
+std::optional<StandIn> standInForOneView(const LightScene& scene);
 
 }  // namespace halfshadow::techniques

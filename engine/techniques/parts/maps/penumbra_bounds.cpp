@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "base/keys.hpp"
+#include "techniques/parts/maps/filter_pass.hpp"
 #include "techniques/parts/maps/level_atlas.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -15,9 +17,17 @@ constexpr int kReduction = 8;
 constexpr int kMostBlocks = 128;
 /// Blocks that a level reaches beyond its own: the answer holds what lies 1 to 2.5 times as far as was asked.
 constexpr int kReachBlocks = 4;
-}  // namespace
 
-Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const LightDepth& depth) {
+/// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach
+/// that the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
+struct PenumbraBounds {
+  framegraph::ResourceId atlas;
+  int blockTexels = 8;  ///< side of a block of the finest level
+  int blocks = 2;       ///< per side of the finest level, a power of two
+  int lastLevel = 0;    ///< of two blocks per side
+};
+
+PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth) {
   PenumbraBounds bounds;
   const int mapSize = depth.space.mapSize;
   while (bounds.blockTexels * kMostBlocks < mapSize) bounds.blockTexels *= 2;
@@ -28,12 +38,12 @@ Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const Ligh
   bounds.blocks = atlas.finestSide;
   bounds.lastLevel = atlas.lastLevel;
 
-  const std::string prefix = "light " + std::to_string(frame.lightIndex) + " penumbra bounds ";
+  const std::string prefix = scene.name + " penumbra bounds ";
   const auto persistent = [&](const std::string& name, int width, int height) {
-    return frame.graph.addResource({.name = prefix + name,
-                                    .width = width,
-                                    .height = height,
-                                    .lifetime = framegraph::Lifetime::persistent});
+    return plan.addImage({.name = prefix + name,
+                          .width = width,
+                          .height = height,
+                          .lifetime = framegraph::Lifetime::persistent});
   };
   framegraph::ResourceId source = depth.map;
   int sourceSize = mapSize, factor = bounds.blockTexels;
@@ -42,17 +52,16 @@ Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const Ligh
     auto defines = depthDefines(depth.storage);
     defines.push_back("HS_FACTOR " + std::to_string(factor));
     if (images.empty()) defines.push_back("HS_FROM_DEPTH");
-    auto program = frame.programs.get({"screen/fullscreen.vert", "map/block_bounds.frag", defines});
-    if (!program) return program.error();
     const auto target = persistent(std::to_string(size), size, size);
-    addFilterPass(frame.graph, {.name = prefix + std::to_string(size),
-                                .program = *program,
-                                .source = source,
-                                .target = target,
-                                .sourceSize = sourceSize,
-                                .targetSize = size,
-                                .contentKey = combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
-                                .sampler = "u_source"});
+    addFilterPass(plan, {.name = prefix + std::to_string(size),
+                         .fragmentFile = "map/block_bounds.frag",
+                         .defines = defines,
+                         .source = source,
+                         .target = target,
+                         .sourceSize = sourceSize,
+                         .targetSize = size,
+                         .contentKey = combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
+                         .sampler = "u_source"});
     images.push_back({target, size, size, {0, 0, size, size}});
     source = target;
     sourceSize = size;
@@ -63,51 +72,43 @@ Result<PenumbraBounds> declarePenumbraBounds(const LightFrame& frame, const Ligh
   const auto rows = persistent("rows", atlas.width(), atlas.height());
   bounds.atlas = persistent("levels", atlas.width(), atlas.height());
   std::vector<LevelDraw> rowDraws, levelDraws;
-  auto both = frame.programs.get(
-      {"screen/fullscreen.vert", "map/block_dilate.frag", dilationDefines(0, kReachBlocks, 1)});
-  if (!both) return both.error();
   for (int level = 0; level <= atlas.lastLevel; ++level) {
     const int side = atlas.side(level);
     const LevelImage& image = images.back().imageWidth >= side ? images.back() : images.front();
-    auto program = frame.programs.get({"screen/fullscreen.vert", "map/block_dilate.frag",
-                                       dilationDefines(kReachBlocks, 0, image.imageWidth / side)});
-    if (!program) return program.error();
-    rowDraws.push_back({*program, image, atlas.rect(level)});
-    levelDraws.push_back(
-        {*both, {rows, atlas.width(), atlas.height(), atlas.rect(level)}, atlas.rect(level)});
+    rowDraws.push_back({"map/block_dilate.frag", dilationDefines(kReachBlocks, 0, image.imageWidth / side),
+                        image, atlas.rect(level)});
+    levelDraws.push_back({"map/block_dilate.frag",
+                          dilationDefines(0, kReachBlocks, 1),
+                          {rows, atlas.width(), atlas.height(), atlas.rect(level)},
+                          atlas.rect(level)});
   }
-  addLevelPass(frame.graph, prefix + "rows", rows, std::move(rowDraws),
-               combineKeys(depth.contentKey, 0xb0bd0u));
-  addLevelPass(frame.graph, prefix + "levels", bounds.atlas, std::move(levelDraws),
-               combineKeys(depth.contentKey, 0xb0bd1u));
+  addLevelPass(plan, prefix + "rows", rows, rowDraws, combineKeys(depth.contentKey, 0xb0bd0u));
+  addLevelPass(plan, prefix + "levels", bounds.atlas, levelDraws, combineKeys(depth.contentKey, 0xb0bd1u));
   return bounds;
 }
 
-Status addPenumbraBounds(const LightFrame& frame, const LightDepth& depth, ReceiverShading& shading) {
-  auto bounds = declarePenumbraBounds(frame, depth);
-  if (!bounds) return bounds.error();
-  shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds->atlas});
+}  // namespace
+
+void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
+                       ReceiverShading& shading) {
+  const PenumbraBounds bounds = planPenumbraBounds(scene, plan, depth);
+  shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds.atlas});
   const MapSpace& space = depth.space;
   // Half of the narrowest kernel and half a texel to its tap's centre; without highp a fragment's own place
   // is off by up to a texel.
   const double slack = depth.storage == DepthStorage::packed16 ? 2.0 : 1.0;
-  const double texelsPerBlock = bounds->blockTexels;
-  const glm::vec4 uniform(bounds->blocks, 1.0 / (texelsPerBlock * bounds->blocks), bounds->lastLevel, slack);
+  const double texelsPerBlock = bounds.blockTexels;
+  const glm::vec4 uniform(bounds.blocks, 1.0 / (texelsPerBlock * bounds.blocks), bounds.lastLevel, slack);
   const glm::vec4 penumbra(space.kernelTexelsPerDepth / space.depthUnit,
                            space.nearestCasterDepth * space.depthUnit, 1.0 / (texelsPerBlock * kReachBlocks));
-  shading.setUniforms = [uniform, penumbra, inner = std::move(shading.setUniforms)](gl::Program& program,
-                                                                                    gl::Context& context) {
-    inner(program, context);
-    program.set(context, "u_bounds", uniform);
-    program.set(context, "u_penumbra", penumbra);
-  };
-  shading.skip = frame.preferredSkip == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
-  return {};
+  shading.uniforms.set("u_bounds", uniform);
+  shading.uniforms.set("u_penumbra", penumbra);
+  shading.skip = preferredSkip(scene) == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
 }
 
-double widestPenumbraTexels(const LightFrame& frame, const MapSpace& space) {
+double widestPenumbraTexels(const LightScene& scene, const MapSpace& space) {
   const double farthest =
-      1.0 - space.nearDistance / std::max(frame.receiverFarDistance, frame.fit.farDistance);
+      1.0 - space.nearDistance / std::max(scene.receiverFarDistance, scene.fit().farDistance);
   return std::max(space.kernelTexelsPerDepth.x, space.kernelTexelsPerDepth.y) *
          (farthest - space.nearestCasterDepth);
 }

@@ -152,11 +152,11 @@ bool hasFewTriangles(const DrawItem& receiver) {
 Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha) {
   const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";
   ReceiverDepth depth;
-  depth.clipFromWorld = withoutFarPlane(frame.view.clipFromWorld);
-  const glm::dvec4 w = row(frame.view.clipFromWorld, 3);
+  depth.clipFromWorld = withoutFarPlane(frame.screen.clipFromWorld);
+  const glm::dvec4 w = row(frame.screen.clipFromWorld, 3);
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const DrawItem& item : frame.receivers) {
-    low = std::min(low, nearestInView(item.boundsWorld, frame.view));
+    low = std::min(low, nearestInView(item.boundsWorld, frame.screen));
     for (const glm::dvec3& corner : item.boundsWorld.corners())
       high = std::max(high, glm::dot(w, glm::dvec4(corner, 1.0)));
   }
@@ -168,7 +168,7 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlph
 
   auto programs = depthPrograms(frame, alpha);
   if (!programs) return programs.error();
-  const int width = frame.view.width, height = frame.view.height;
+  const int width = frame.screen.width, height = frame.screen.height;
   depth.packed = frame.graph.addResource({.name = name, .width = width, .height = height});
   depth.depthTest = frame.graph.addResource({.name = name + " test",
                                              .width = width,
@@ -178,7 +178,7 @@ Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlph
   framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
-  pass.execute = [programs = *programs, depth, &view = frame.view,
+  pass.execute = [programs = *programs, depth, &view = frame.screen,
                   items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
                      framegraph::PassContext& context) { drawDepths(context, programs, depth, view, items); };
   frame.graph.addPass(std::move(pass));

@@ -5,7 +5,7 @@
 /// that works on the screen.
 #pragma once
 
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

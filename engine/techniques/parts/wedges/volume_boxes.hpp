@@ -9,7 +9,7 @@
 #include <span>
 
 #include "outlines/wedge_pieces.hpp"
-#include "techniques/core/technique.hpp"
+#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow::techniques {
 

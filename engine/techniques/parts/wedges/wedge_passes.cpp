@@ -32,8 +32,8 @@ ReceiverShading shareShading(ResourceId image) {
 
 ResourceId screenImage(const LightFrame& frame, const std::string& name) {
   return frame.graph.addResource({.name = "light " + std::to_string(frame.lightIndex) + " " + name,
-                                  .width = frame.view.width,
-                                  .height = frame.view.height});
+                                  .width = frame.screen.width,
+                                  .height = frame.screen.height});
 }
 
 std::vector<Attachment> wedgeTargets(ResourceId color, const ReceiverDepth& depth, InitialContent initial,

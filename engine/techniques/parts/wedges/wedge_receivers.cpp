@@ -127,7 +127,7 @@ Result<ReceiverDraws> WedgeReceivers::update(const LightFrame& frame, const Wedg
     receiver.revision = item.revision;
   }
 
-  const View& view = frame.view;
+  const View& view = frame.screen;
   const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
   ReceiverDraws draws;
   draws.groups.resize(groups.size());

@@ -65,7 +65,7 @@ Status WedgeRoute::addScreenPass(const LightFrame& frame, PassDesc pass, std::si
   const Wedges wedges{volumes_, *depth_};
   pass.reads = {depth_->packed};
   pass.writes = wedgeTargets(target.color, *depth_, InitialContent::clear, target.clear);
-  pass.execute = [programs = *programs, wedges, &view = frame.view, group = groups_[index], target,
+  pass.execute = [programs = *programs, wedges, &view = frame.screen, group = groups_[index], target,
                   footprintPrograms, footprints, items = itemsOf(frame)](framegraph::PassContext& context) {
     if (wedges.volumes->lightEnclosed) return;
     drawReceiverWedges(context, footprintPrograms, *wedges.volumes, view, wedges.depth.clipFromWorld, items,
@@ -87,8 +87,8 @@ Status WedgeRoute::addReceiverPass(const LightFrame& frame, PassDesc pass, std::
     if (!linked) return linked.error();
     depthProgram = *linked;
     depthBuffer_ = frame.graph.addResource({.name = wedgePassName(frame, "wedge depth"),
-                                            .width = frame.view.width,
-                                            .height = frame.view.height,
+                                            .width = frame.screen.width,
+                                            .height = frame.screen.height,
                                             .format = framegraph::Format::depth24,
                                             .storage = framegraph::Storage::renderbuffer});
   }
@@ -100,7 +100,7 @@ Status WedgeRoute::addReceiverPass(const LightFrame& frame, PassDesc pass, std::
                  {.resource = depthBuffer_,
                   .point = AttachmentPoint::depth,
                   .initial = first ? InitialContent::clear : InitialContent::keep}};
-  pass.execute = [programs = *programs, depthProgram, volumes = volumes_, &view = frame.view,
+  pass.execute = [programs = *programs, depthProgram, volumes = volumes_, &view = frame.screen,
                   items = itemsOf(frame), draws = draws_->groups[index],
                   target](framegraph::PassContext& context) {
     if (volumes->lightEnclosed) return;

@@ -5,16 +5,12 @@
 /// taps, or shaded in one forward pass.
 #pragma once
 
-#include "techniques/core/technique.hpp"
+#include "framegraph/executor.hpp"
+#include "gl/program.hpp"
+#include "techniques/core/light_scene.hpp"
+#include "techniques/core/receiver_shading.hpp"
 
 namespace halfshadow::techniques {
-
-enum class ReceiverOutput {
-  visibility,    ///< 8 bits, light i in channel i (a single light in all four)
-  visibility16,  ///< one light, two bytes: red high, green low, value = (256 high + low) / 65280
-  taps,          ///< fetches of each pixel's visibility function: red low byte, green high byte
-  shaded         ///< lit colour of one light, visibility evaluated in the same pass
-};
 
 struct ShadingInputs {
   std::vector<const scene::AreaLight*>
@@ -47,16 +43,6 @@ struct ReceiverProgramSet {
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
                                             ReceiverOutput output, std::span<const DrawItem> items);
-
-/// How the receivers' colours reach the target.
-struct ReceiverTarget {
-  std::array<bool, 4> colorMask{true, true, true, true};
-  bool depthIsComplete = false;  ///< an earlier light of the pass has drawn all depths
-  bool additive = false;         ///< blend ONE, ONE
-  /// Receivers in the same place get depths a step apart, by their place in the list: only one of them is
-  /// found again where sums over pixels must not count both. For all draws of a depth buffer or none.
-  bool depthsApart = false;
-};
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.
 /// `shadingInputs`: of ReceiverOutput::shaded, else null.

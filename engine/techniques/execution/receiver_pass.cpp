@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/core/receiver_pass.hpp"
+#include "techniques/execution/receiver_pass.hpp"
 
 #include <algorithm>
 #include <glm/gtc/matrix_inverse.hpp>
+
+#include "techniques/execution/gpu_mesh.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -25,7 +27,7 @@ std::vector<std::string> outputDefines(ReceiverOutput output, bool baseColorText
 
 void bindTextures(framegraph::PassContext& context, gl::Program& program, const ReceiverShading& shading) {
   std::vector<gl::TextureBinding> bindings;
-  for (const ReceiverTexture& texture : shading.textures) {
+  for (const TextureRead& texture : shading.textures) {
     const int unit = program.samplerUnit(texture.sampler);
     if (unit < 0) continue;
     bindings.push_back({unit, texture.texture ? texture.texture : &context.texture(texture.resource)});
@@ -67,6 +69,11 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
                        const View& view, const DrawItem& item, bool facets, const ShadingInputs* inputs) {
   program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
   setMapUniforms(gl, program, shading, item.worldFromObject, facets);
+  if (shading.itemUniforms) {
+    device::UniformList uniforms;
+    shading.itemUniforms(item, uniforms);
+    program.set(gl, uniforms);
+  }
   if (shading.setItemUniforms) shading.setItemUniforms(program, gl, item);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
@@ -79,6 +86,7 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
 
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
                       const gl::Rect& viewport, const ShadingInputs* inputs) {
+  program.set(gl, shading.uniforms);
   if (shading.setUniforms) shading.setUniforms(program, gl);
   const glm::vec2 scale(1.0f / static_cast<float>(viewport.width),
                         1.0f / static_cast<float>(viewport.height));
@@ -113,7 +121,7 @@ ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
 
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading) {
   std::vector<framegraph::ResourceId> resources;
-  for (const ReceiverTexture& texture : shading.textures) {
+  for (const TextureRead& texture : shading.textures) {
     if (texture.texture == nullptr) resources.push_back(texture.resource);
   }
   return resources;
@@ -235,10 +243,11 @@ Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const Receiv
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
                  const glm::dmat4& worldFromObject, int firstTextureUnit,
                  const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf) {
+  program.set(context, shading.uniforms);
   if (shading.setUniforms) shading.setUniforms(program, context);
   setMapUniforms(context, program, shading, worldFromObject, needsFacetStream(context.capabilities()));
   int unit = firstTextureUnit;
-  for (const ReceiverTexture& texture : shading.textures) {
+  for (const TextureRead& texture : shading.textures) {
     const gl::Texture* bound = texture.texture ? texture.texture : textureOf(texture.resource);
     if (!program.has(texture.sampler) || bound == nullptr) continue;
     bound->bind(context, unit);

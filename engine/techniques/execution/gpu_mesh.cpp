@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/core/gpu_mesh.hpp"
+#include "techniques/execution/gpu_mesh.hpp"
 
 #include <algorithm>
 #include <unordered_map>

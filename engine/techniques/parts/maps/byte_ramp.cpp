@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "techniques/core/shared_textures.hpp"
+#include "techniques/parts/maps/byte_ramp.hpp"
+
+#include <algorithm>
 
 namespace halfshadow::techniques {
 namespace {
+constexpr const char* kName = "byte ramp";
+
 /// Texel (x, y): the high byte and a half bit come from x = floor(512·d), the low byte from
 /// y = floor(256·fract(256·d)). The two coordinates are interpolated separately, so near a border of the high
 /// byte they may disagree by one; the half bit tells which side is meant and corrects the high byte.
@@ -27,17 +31,14 @@ std::vector<std::uint8_t> rampPixels() {
 }
 }  // namespace
 
-Result<const gl::Texture*> SharedTextures::byteRamp(gl::Context& context) {
-  if (!byteRamp_) {
-    const std::vector<std::uint8_t> pixels = rampPixels();
-    auto made = gl::Texture::create(
-        context,
-        {.width = 512, .height = 256, .format = gl::TextureFormat::rgba8, .wrap = gl::TextureWrap::repeat},
-        pixels.data());
-    if (!made) return made.error();
-    byteRamp_ = std::move(made).value();
-  }
-  return const_cast<const gl::Texture*>(&byteRamp_);
+std::uint32_t addByteRamp(PassPlan& plan) {
+  const auto known = std::ranges::find(plan.textures, kName, &PlannedTexture::name);
+  if (known != plan.textures.end()) return static_cast<std::uint32_t>(known - plan.textures.begin());
+  return plan.addTexture({.name = kName,
+                          .desc = {.width = 512, .height = 256, .wrap = device::TextureWrap::repeat},
+                          .key = 1,
+                          .forAllLights = true,
+                          .pixels = rampPixels});
 }
 
 }  // namespace halfshadow::techniques

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Uniforms as data: set by preparation, sent when a program is drawn with. No GL.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+namespace halfshadow::device {
+
+/// FNV-1a of a uniform's name. Array uniforms use the name without "[0]".
+struct UniformKey {
+  std::uint32_t hash = 0;
+  consteval UniformKey(const char* name) : hash(hashOf(name)) {}
+  static constexpr std::uint32_t hashOf(std::string_view name) {
+    std::uint32_t h = 2166136261u;
+    for (const char c : name) h = (h ^ static_cast<std::uint8_t>(c)) * 16777619u;
+    return h;
+  }
+};
+
+/// Vectors are arrays of the shader.
+using UniformValue = std::variant<float, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4,
+                                  std::vector<glm::vec2>, std::vector<glm::vec4>>;
+
+/// A program's uniforms; each once, the last value counts. What a program lacks is ignored.
+class UniformList {
+ public:
+  struct Entry {
+    UniformKey key;
+    UniformValue value;
+  };
+  void set(UniformKey key, UniformValue value) {
+    const auto found = std::ranges::find(entries_, key.hash, [](const Entry& e) { return e.key.hash; });
+    if (found != entries_.end()) {
+      found->value = std::move(value);
+    } else {
+      entries_.push_back({key, std::move(value)});
+    }
+  }
+  void clear() { entries_.clear(); }
+  const std::vector<Entry>& entries() const { return entries_; }
+
+ private:
+  std::vector<Entry> entries_;
+};
+
+}  // namespace halfshadow::device

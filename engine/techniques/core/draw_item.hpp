@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Objects as passes draw them. No GL.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+
+#include "device/draw_state.hpp"
+#include "scene/bounds.hpp"
+#include "scene/half_edge_mesh.hpp"
+
+namespace halfshadow::gl {
+class Texture;
+}
+
+namespace halfshadow::techniques {
+
+class GpuMesh;
+
+/// One object placed in the world, as passes draw it.
+struct DrawItem {
+  const GpuMesh* mesh = nullptr;
+  bool casts = true;  ///< of receivers: it is among the casters of some light in this frame
+  bool receives = true;
+  glm::dmat4 worldFromObject{1.0};
+  glm::vec4 baseColor{1.0f};
+  const gl::Texture* baseColorTexture = nullptr;
+  scene::Bounds boundsWorld;
+  bool closed = false;    ///< no boundary edges: from outside only front faces are seen
+  bool mirrored = false;  ///< the transform turns the winding round
+  const scene::TriangleMesh* sourceMesh = nullptr;
+  const scene::CasterGeometry* geometry = nullptr;
+  std::uint64_t revision = 0;  ///< of mesh and transform
+  /// Adjacency, for silhouettes; built on the first call.
+  const scene::HalfEdgeMesh& halfEdges() const { return geometry->halfEdges(*sourceMesh); }
+};
+
+/// Faces that need not be drawn when seen from `eyeWorld`: back faces of closed objects that are farther than
+/// `nearReach`, so that no near plane opens them. Halves rasterisation, which is most of the cost of dense
+/// meshes.
+device::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach = 0.0);
+
+/// The faces on the other side.
+device::Cull turnedRound(device::Cull faces);
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/core/light_scene.hpp"
+
+#include <algorithm>
+
+namespace halfshadow::techniques {
+
+std::span<const scene::PlacedCaster> placedCasters(const LightScene& scene) {
+  if (scene.groups.holds(scene.contentKey)) return scene.groups.placed();
+  std::vector<scene::SceneCaster> casters;
+  for (const DrawItem& item : scene.casters) {
+    casters.push_back({.mesh = item.sourceMesh,
+                       .geometry = item.geometry,
+                       .worldFromObject = item.worldFromObject,
+                       .revision = item.revision});
+  }
+  scene.groups.update(casters, scene.contentKey);
+  return scene.groups.placed();
+}
+
+std::uint32_t placedCasterOf(const LightScene& scene, const DrawItem& receiver) {
+  const auto found = std::ranges::find(scene.casters, receiver.geometry, &DrawItem::geometry);
+  if (found == scene.casters.end()) return kNoCaster;
+  placedCasters(scene);
+  return scene.groups.placedOf(static_cast<std::size_t>(found - scene.casters.begin()));
+}
+
+}  // namespace halfshadow::techniques
