@@ -132,7 +132,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
   }
-  double farthest = 0.0;
+  std::vector<api::Receiver> receivers;
   std::vector<bool> isCaster(sceneObjects.size(), false);
   for (const std::uint32_t i : plan.casters) isCaster[i] = true;
   for (std::size_t i = 0; i < sceneObjects.size(); ++i) {
@@ -143,9 +143,8 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       target.shadowlessReceivers.push_back(drawItem(*object));
       target.shadowlessReceivers.back().casts = false;
     }
-    farthest =
-        std::max(farthest, api::receiverFarDistance(
-                               cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
+    receivers.push_back({&object->mesh, object->worldFromObject,
+                         scene::transformed(object->worldFromObject, object->boundsObject)});
   }
   const techniques::LightFrame lightFrame{
       .capabilities = context->capabilities(),
@@ -159,7 +158,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       .lightIndex = static_cast<int>(index),
       .fit = cache.fit,
       .casterPointsWorld = cache.casterPointsWorld,
-      .receiverFarDistance = farthest,
+      .receiverFarDistance = api::receiverFarDistance(cache.fit, receivers),
       .casters = target.casters,
       .groups = cache.groups,
       .receivers = frame.receivers,
