@@ -208,6 +208,12 @@ class OcclusionTextures final : public Technique {
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+      shading.setItemUniforms = [origin = space.originWorld](gl::Program& program, gl::Context& context,
+                                                             const DrawItem& item) {
+        const gl::Cull hidden = hiddenFaces(item, origin);
+        program.set(context, "u_innerSide",
+                    hidden == gl::Cull::none ? 0.0f : (hidden == gl::Cull::back ? 1.0f : -1.0f));
+      };
       if (slices.lastReceivers) {
         shading.defines.push_back("HS_LAST_RECEIVERS");
         shading.textures.push_back({.sampler = "u_lastReceivers", .resource = *slices.lastReceivers});
