@@ -6,6 +6,7 @@
 
 #include "planner/frame_planner.hpp"
 #include "techniques/core/caster_spread.hpp"
+#include "techniques/light_blocks/interiors.hpp"
 #include "techniques/light_blocks/light_blocks.hpp"
 
 namespace halfshadow::techniques {
@@ -27,7 +28,7 @@ class Vsm final : public Technique {
             "8-bit "
             "moments also wherever caster and receiver are close; lights whose farthest caster is over 100 "
             "times "
-            "as far as the nearest go to sampled"};
+            "as far as the nearest, and rooms that the light is outside of, go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -45,7 +46,8 @@ class Vsm final : public Technique {
     return {false, "highp: the variance of two moments is below what fp16 resolves; use pcf or pcss-mip"};
   }
   std::optional<StandIn> standIn(const LightFrame& frame) const override {
-    return sampledWhereCastersSpread(frame, kWidestSpread);
+    if (auto spread = sampledWhereCastersSpread(frame, kWidestSpread)) return spread;
+    return standInForInteriors(frame);
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto depth = declareLightDepth(frame, MapContent::castersAndReceivers);
