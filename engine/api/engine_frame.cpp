@@ -134,7 +134,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
   }
-  double farthest = 0.0;
+  std::vector<api::Receiver> receivers;
   std::vector<bool> isCaster(sceneObjects.size(), false);
   for (const std::uint32_t i : plan.casters) isCaster[i] = true;
   for (std::size_t i = 0; i < sceneObjects.size(); ++i) {
@@ -145,9 +145,8 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
       target.shadowlessReceivers.push_back(drawItem(*object));
       target.shadowlessReceivers.back().casts = false;
     }
-    farthest =
-        std::max(farthest, api::receiverFarDistance(
-                               cache.fit, scene::transformed(object->worldFromObject, object->boundsObject)));
+    receivers.push_back({&object->mesh, object->worldFromObject,
+                         scene::transformed(object->worldFromObject, object->boundsObject)});
   }
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, sceneRevision);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
@@ -160,7 +159,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                                                 .contentKey = plan.contentKey,
                                                 .sceneKey = sceneKey}},
                                      .casterPointsWorld = cache.casterPointsWorld,
-                                     .receiverFarDistance = farthest,
+                                     .receiverFarDistance = api::receiverFarDistance(cache.fit, receivers),
                                      .casters = target.casters,
                                      .groups = cache.groups,
                                      .receivers = frame.receivers,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 namespace halfshadow::api {
 namespace {
@@ -22,7 +23,68 @@ bool clip(const std::array<double, 5>& a, const std::array<double, 5>& b, double
   }
   return enter <= leave;
 }
+/// The same of a triangle, exactly.
+double triangleFarDistance(const planner::LightFit& fit, const std::array<glm::dvec3, 3>& cornersLight,
+                           std::vector<glm::dvec3>& polygon, std::vector<glm::dvec3>& kept) {
+  polygon.assign(cornersLight.begin(), cornersLight.end());
+  for (std::size_t plane = 0; plane < 5 && !polygon.empty(); ++plane) {
+    kept.clear();
+    for (std::size_t i = 0; i < polygon.size(); ++i) {
+      const glm::dvec3 &from = polygon[i], &to = polygon[(i + 1) % polygon.size()];
+      const double a = planeDistances(fit, from)[plane], b = planeDistances(fit, to)[plane];
+      if (a >= 0.0) kept.push_back(from);
+      if ((a > 0.0 && b < 0.0) || (a < 0.0 && b > 0.0)) kept.push_back(from + (to - from) * (a / (a - b)));
+    }
+    std::swap(polygon, kept);
+  }
+  double farthest = 0.0;
+  for (const glm::dvec3& point : polygon) farthest = std::max(farthest, point.z);
+  return farthest;
+}
+
+/// Larger meshes are not looked at in each frame: their boxes are.
+constexpr std::size_t kMostTriangles = 4096;
 }  // namespace
+
+double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMesh& mesh,
+                           const glm::dmat4& worldFromObject) {
+  const glm::dmat4 lightFromObject = fit.lightFromWorld * worldFromObject;
+  double farthest = 0.0;
+  std::vector<glm::dvec3> polygon, kept;
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    std::array<glm::dvec3, 3> corners;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 position(mesh.positions[mesh.indices[3 * t + k]]);
+      corners[k] = glm::dvec3(lightFromObject * glm::dvec4(position, 1.0));
+    }
+    if (std::max({corners[0].z, corners[1].z, corners[2].z}) <= farthest) continue;
+    farthest = std::max(farthest, triangleFarDistance(fit, corners, polygon, kept));
+  }
+  return farthest;
+}
+
+double receiverFarDistance(const planner::LightFit& fit, std::span<const Receiver> receivers) {
+  if (fit.empty) return 0.0;
+  struct Reach {
+    double box;
+    const Receiver* receiver;
+  };
+  std::vector<Reach> reaches;
+  for (const Receiver& receiver : receivers)
+    reaches.push_back({receiverFarDistance(fit, receiver.boundsWorld), &receiver});
+  std::ranges::sort(reaches, std::ranges::greater{}, &Reach::box);
+  double farthest = 0.0;
+  for (const Reach& reach : reaches) {
+    if (reach.box <= farthest) break;
+    const scene::TriangleMesh& mesh = *reach.receiver->mesh;
+    // Rounding may not make the exact answer the larger one.
+    farthest = std::max(
+        farthest, mesh.triangleCount() > kMostTriangles
+                      ? reach.box
+                      : std::min(reach.box, receiverFarDistance(fit, mesh, reach.receiver->worldFromObject)));
+  }
+  return farthest;
+}
 
 double receiverFarDistance(const planner::LightFit& fit, const scene::Bounds& receiverWorld) {
   if (fit.empty || receiverWorld.empty()) return 0.0;

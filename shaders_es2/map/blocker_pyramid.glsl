@@ -12,11 +12,11 @@ uniform HS_HIGHP vec4 u_pyramidLayout;
 // x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
 
-// A tent of two cells' width around the receiver. x: share of it that lies nearer, y: share times gap.
-HS_HIGHP vec2 hs_cellsAround(HS_HIGHP float level) {
+// A tent of two cells' width around a texel. x: share of it that lies nearer, y: share times gap.
+HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
   HS_HIGHP float side = floor(u_pyramidLayout.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_pyramidLayout.x, u_pyramidLayout.x - 2.0 * side);
-  HS_HIGHP vec2 at = hs_texel * (side * u_pyramidLayout.z) - 0.5;
+  HS_HIGHP vec2 at = texel * (side * u_pyramidLayout.z) - 0.5;
   HS_HIGHP vec2 first = floor(at);
   HS_HIGHP vec2 part = at - first;
   HS_HIGHP vec2 corner = vec2(0.0);
@@ -35,29 +35,49 @@ HS_HIGHP vec2 hs_cellsAround(HS_HIGHP float level) {
   return sum * (1.0 / 255.0);
 }
 
-// The same over about widthTexels of the depth map, between two levels: changes evenly with the width.
-HS_HIGHP vec2 hs_blockersAround(HS_HIGHP float widthTexels) {
-  HS_HIGHP float cellsWide = widthTexels * u_pyramidLayout.x * u_pyramidLayout.z;
+// The same over about widthTexels of the depth map, between two levels: changes evenly with the width. A region much
+// longer than wide, as where the map's texels are not square, is looked at from several places along it that start to
+// part as it becomes so.
+HS_HIGHP vec2 hs_blockersAround(HS_HIGHP vec2 widthTexels) {
+  HS_HIGHP float longer = max(widthTexels.x, widthTexels.y);
+  HS_HIGHP float span = max(0.6 * longer - min(widthTexels.x, widthTexels.y), 0.0);
+  HS_HIGHP float width = longer - span;
+  // Half a width apart at most: eight of them at the very longest.
+  HS_HIGHP float strides = ceil(2.0 * span / max(width, 1.0e-3));
+  HS_HIGHP vec2 along = (widthTexels.x > widthTexels.y ? vec2(1.0, 0.0) : vec2(0.0, 1.0)) * span;
+  HS_HIGHP float cellsWide = width * u_pyramidLayout.x * u_pyramidLayout.z;
   HS_HIGHP float level = clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
   HS_HIGHP float lower = floor(level);
-  return mix(hs_cellsAround(lower), hs_cellsAround(min(lower + 1.0, u_pyramidLayout.y)), level - lower);
+  HS_HIGHP vec2 sum = vec2(0.0);
+  for (int i = 0; i < 5; ++i) {
+    if (float(i) > strides) break;
+    HS_HIGHP vec2 texel = hs_texel + along * (float(i) / max(strides, 1.0) - 0.5);
+    HS_HIGHP vec2 around = hs_cellsAround(texel, lower);
+    if (level > lower) around = mix(around, hs_cellsAround(texel, lower + 1.0), level - lower);
+    sum += around;
+  }
+  return sum / (strides + 1.0);
 }
 
 // Mean gap of what can block the fragment, depth units, or -1: nothing does. Where it asks for much less than the
-// widest region, a nearer caster at the rim had widened it without being in the way: the region is then what the mean
-// asks for, and between the two from one to the other.
+// region that was looked at, the region is then what the mean asks for, and between the two from one to the other:
+// a nearer caster at the rim makes it wide without being in the way, and so does the upper part of a wall at whose foot
+// the fragment lies.
 HS_HIGHP float hs_meanGap() {
-  HS_HIGHP float texelsPerDepth = max(u_penumbra.x, u_penumbra.y);
-  HS_HIGHP vec2 around = hs_blockersAround(texelsPerDepth * hs_widestGap);
+  HS_HIGHP vec2 around = hs_blockersAround(u_penumbra.xy * hs_widestGap);
   if (around.x <= 0.0) return -1.0;
   HS_HIGHP float gap = around.y / around.x;
   HS_HIGHP float part = gap / hs_widestGap;
   // Of the region that the filter will cover, half a step of an 8-bit image.
   if (around.x <= 0.002 * part * part) return -1.0;
-  HS_HIGHP float again = clamp(2.5 - 5.0 * part, 0.0, 1.0);
-  if (again > 0.0) {
-    HS_HIGHP vec2 nearer = hs_blockersAround(texelsPerDepth * gap * 1.25);
-    if (nearer.x > 0.0) gap = mix(gap, nearer.y / nearer.x, again);
+  for (int i = 0; i < 4; ++i) {
+    HS_HIGHP float again = clamp(3.4 - 4.0 * part, 0.0, 1.0);
+    if (again <= 0.0) break;
+    HS_HIGHP vec2 nearer = hs_blockersAround(u_penumbra.xy * gap);
+    if (nearer.x <= 0.0) break;
+    HS_HIGHP float next = mix(gap, nearer.y / nearer.x, again * min(10.0 * nearer.x, 1.0));
+    part = next / gap;
+    gap = next;
   }
   return gap;
 }

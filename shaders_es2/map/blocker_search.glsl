@@ -28,11 +28,19 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 width, float taps) {
   return vec2(blockers * (1.0 / float(HS_SEARCH * HS_SEARCH)), -gapSum / max(blockers, 1.0));
 }
 
-// The same over what could hold blockers, and again where the blockers found ask for less than half of it: a nearer
-// caster at its rim makes the region wide without being in the way.
+// The same over what could hold blockers, and again over what the blockers found ask for as long as that is much less: a
+// nearer caster at the rim makes the region wide without being in the way, and so does the upper part of a wall at
+// whose foot the receiver lies. Where the light is wholly beyond such a wall, each search at least halves the gap
+// until the region ends before the foot; regions wider than that let light in along it.
 HS_HIGHP vec2 hs_searchBlockers() {
-  HS_HIGHP vec2 found = hs_searchTaps(u_penumbra.xy * hs_widestGap, float(HS_SEARCH * HS_SEARCH));
-  float again = step(1.0e-4, found.x) * step(found.y, 0.5 * hs_widestGap);
-  HS_HIGHP vec2 nearer = hs_searchTaps(u_penumbra.xy * (1.25 * found.y), again * float(HS_SEARCH * HS_SEARCH));
-  return nearer.x > 0.0 ? nearer : found;
+  HS_HIGHP float asked = hs_widestGap;
+  HS_HIGHP vec2 found = hs_searchTaps(u_penumbra.xy * asked, float(HS_SEARCH * HS_SEARCH));
+  for (int i = 0; i < 4; ++i) {
+    if (found.x <= 0.0 || found.y > 0.75 * asked) break;
+    asked = found.y;
+    HS_HIGHP vec2 nearer = hs_searchTaps(u_penumbra.xy * asked, float(HS_SEARCH * HS_SEARCH));
+    if (nearer.x <= 0.0) break;
+    found = nearer;
+  }
+  return found;
 }

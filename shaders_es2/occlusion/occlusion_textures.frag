@@ -40,6 +40,11 @@ HS_HIGHP float hs_sidePerSlice;
 // May the receiver's own surface be in the slices? Else all that is not clearly behind it shadows it, up to where
 // they touch.
 bool hs_ownInSlices = false;
+#ifdef HS_CASTING_RECEIVER
+// Of closed casters only the faces towards the light are in slices, so none whose inner side receives: those are seen as
+// front faces at -1 (mirrored), as back faces at 1; at 0 all faces are in slices.
+uniform HS_HIGHP float u_innerSide;
+#endif
 #ifdef HS_LAST_RECEIVERS
 uniform HS_HIGHP sampler2D u_lastReceivers;
 uniform HS_HIGHP vec4 u_lastRange;  // x: slice units of depth 1, y: slice units that a last receiver is off by
@@ -110,8 +115,11 @@ float halfshadow_visibility() {
   hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
 #if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
   hs_ownInSlices = true;
+#ifdef HS_CASTING_RECEIVER
+  if (u_innerSide != 0.0) hs_ownInSlices = gl_FrontFacing == (u_innerSide > 0.0);
+#endif
 #ifdef HS_LAST_RECEIVERS
-  hs_ownInSlices = !hs_isLast();
+  if (hs_ownInSlices) hs_ownInSlices = !hs_isLast();
 #endif
 #endif
 #ifdef HS_CONCENTRIC

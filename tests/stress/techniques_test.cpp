@@ -37,7 +37,6 @@ constexpr const char* kInwardLamp =
     "the silhouette of a closed shell that is wound inward lights its inside, and so its outside too, where "
     "the "
     "lamp is inside it";
-constexpr const char* kTurnedTexels = "texels meet edges at other angles: .063 at p99.9 where .06 is allowed";
 constexpr KnownFault kKnownFaults[] = {
     {"enclosed/inward", "shadow-volume", kInwardLamp},
     {"enclosed/inward", "wedges", kInwardLamp},
@@ -45,9 +44,7 @@ constexpr KnownFault kKnownFaults[] = {
     {"enclosed/inward", "wedges-blended", kInwardLamp},
     {"enclosed/inward", "wedges-cells", kInwardLamp},
     {"inside/box", "wedges-cells",
-     "a ground in the plane of a box's floor is lit by half where the box is seen from within"},
-    {"rotation/figure", "pcf-quantized", kTurnedTexels},
-    {"rotation/figure", "pcss-mip", kTurnedTexels}};
+     "a ground in the plane of a box's floor is lit by half where the box is seen from within"}};
 
 const KnownFault* knownFault(const std::string& scene, const std::string& technique) {
   const auto found = std::ranges::find_if(kKnownFaults, [&](const KnownFault& fault) {

@@ -116,7 +116,7 @@ class PcfQuantized final : public Technique {
     // most half an octave apart. A caster close to the light makes that width huge and rare: then all bands
     // are spread.
     const MapSpace& space = depth.space;
-    const double widest = std::clamp(widestPenumbraTexels(scene, space), 2.0, 0.5 * space.mapSize);
+    const double widest = std::clamp(widestPenumbraTexels(scene, space), 2.0, 4.0 * space.mapSize);
     const int bands = scene.settings.integer("pcf-quantized.bands");
     const double evenly = std::log2(widest / 2.0) / (bands - 1);
     const double octavesApart = widest > 0.4 * space.mapSize ? evenly : std::min(evenly, 0.5);

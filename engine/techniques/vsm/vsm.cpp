@@ -7,6 +7,7 @@
 #include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
 #include "techniques/parts/maps/filter_pass.hpp"
+#include "techniques/parts/maps/interiors.hpp"
 #include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
@@ -28,7 +29,7 @@ class Vsm final : public Technique {
             "8-bit "
             "moments also wherever caster and receiver are close; lights whose farthest caster is over 100 "
             "times "
-            "as far as the nearest go to sampled"};
+            "as far as the nearest, and rooms that the light is outside of, go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -46,7 +47,8 @@ class Vsm final : public Technique {
     return {false, "highp: the variance of two moments is below what fp16 resolves; use pcf or pcss-mip"};
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override {
-    return sampledWhereCastersSpread(scene, kWidestSpread);
+    if (auto spread = sampledWhereCastersSpread(scene, kWidestSpread)) return spread;
+    return standInForInteriors(scene);
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

@@ -47,16 +47,26 @@ Plane planeOf(const DrawItem& receiver, const glm::dvec3& lightWorld) {
   }
   return plane;
 }
+
+/// The box settles most; where it reaches through a plane that its caster only stands on, by its slant, the
+/// caster's own vertices do, so that turning a scene changes no answer.
+bool reachesBeyond(const DrawItem& caster, const Plane& plane) {
+  const auto isBeyond = [&](const glm::dvec3& point) { return plane.side(point) < 0.0; };
+  const auto corners = caster.boundsWorld.corners();
+  if (std::ranges::none_of(corners, isBeyond)) return false;
+  if (caster.sourceMesh == nullptr) return true;
+  return std::ranges::any_of(caster.sourceMesh->positions, [&](const glm::vec3& position) {
+    return isBeyond(glm::dvec3(caster.worldFromObject * glm::dvec4(glm::dvec3(position), 1.0)));
+  });
+}
 }  // namespace
 
 bool mayHaveCastersBeyond(const LightScene& scene, const DrawItem& receiver) {
   if (receiver.sourceMesh == nullptr) return true;
   const Plane plane = planeOf(receiver, scene.light.centerWorld);
   if (plane.normal == glm::dvec3(0.0)) return true;
-  return std::ranges::any_of(scene.casters, [&](const DrawItem& caster) {
-    const auto corners = caster.boundsWorld.corners();
-    return std::ranges::any_of(corners, [&](const glm::dvec3& corner) { return plane.side(corner) < 0.0; });
-  });
+  return std::ranges::any_of(scene.casters,
+                             [&](const DrawItem& caster) { return reachesBeyond(caster, plane); });
 }
 
 void addSelfReceiverSearch(const LightScene& scene, ReceiverShading& shading) {
