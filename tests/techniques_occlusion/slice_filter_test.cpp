@@ -9,6 +9,7 @@
 #include "framegraph/plan.hpp"
 #include "gl/embedded_shaders.hpp"
 #include "gl_fixture.hpp"
+#include "techniques/execution/light_passes.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
 
 namespace halfshadow::techniques {
@@ -21,6 +22,45 @@ struct Filtered {
   std::size_t at(int x, int y) const {
     return 4u * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
   }
+};
+
+/// Filters one texture of size² texels.
+class FilterPlanner final : public LightPlanner {
+ public:
+  FilterPlanner(int size, const Pixels& source, SliceFilter filter, double widestTexels)
+      : size_(size), source_(source), filter_(filter), widestTexels_(widestTexels) {}
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    const bool mipmap = filter_ == SliceFilter::mipmap;
+    const auto slices =
+        plan.addImage({.name = "slices",
+                       .width = size_,
+                       .height = size_,
+                       .lifetime = framegraph::Lifetime::persistent,
+                       .filter = mipmap ? framegraph::Filter::linearMipNearest : framegraph::Filter::nearest,
+                       .mipmapped = mipmap});
+    const std::uint32_t source = plan.addTexture(
+        {.name = "source", .desc = {.width = size_, .height = size_}, .key = 1, .pixels = [this] {
+           return source_;
+         }});
+    PlannedPass pass{
+        .name = "slices", .stage = framegraph::PassStage::light, .writes = {{.resource = slices}}};
+    pass.draws.push_back({.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+                          .textures = {{.sampler = "u_source", .own = source}}});
+    plan.passes.push_back(std::move(pass));
+    SliceSpace space;
+    space.mapSize = size_;
+    space.widestTexels = widestTexels_;
+    auto made = planSliceFilter(scene, plan, space, {.textures = {slices}, .contentKey = 1}, filter_);
+    if (!made) return made.error();
+    plan.shading.textures = {{.sampler = "u_result", .resource = made->textures[0]}};
+    return {};
+  }
+
+ private:
+  int size_;
+  Pixels source_;
+  SliceFilter filter_;
+  double widestTexels_;
 };
 
 class SliceFilterTest : public test::GlTest {
@@ -37,41 +77,19 @@ class SliceFilterTest : public test::GlTest {
     const View view;
     const scene::AreaLight light;
     scene::CasterGroups groups;
-    const LightFrame frame{.capabilities = (*context)->capabilities(),
-                           .context = **context,
-                           .programs = programs,
-                           .shared = shared,
+    const LightScene scene{.capabilities = (*context)->capabilities(),
                            .settings = settings,
-                           .graph = graph,
-                           .view = view,
+                           .screen = view,
+                           .name = "light 0",
                            .light = light,
                            .groups = groups};
-    auto texture = gl::Texture::create(**context, {.width = size, .height = size}, source.data());
-    auto copy = programs.get({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}});
-    EXPECT_TRUE(texture.ok() && copy.ok());
-    const auto slices =
-        graph.addResource({.name = "slices",
-                           .width = size,
-                           .height = size,
-                           .lifetime = framegraph::Lifetime::persistent,
-                           .filter = filter == SliceFilter::mipmap ? framegraph::Filter::linearMipNearest
-                                                                   : framegraph::Filter::nearest,
-                           .mipmapped = filter == SliceFilter::mipmap});
-    framegraph::PassDesc pass{.name = "slices", .stage = framegraph::PassStage::light};
-    pass.writes = {{.resource = slices}};
-    pass.execute = [&](framegraph::PassContext& passContext) {
-      passContext.encoder.useProgram(**copy);
-      const gl::TextureBinding binding{(*copy)->samplerUnit("u_source"), &*texture};
-      passContext.encoder.bindTextures({&binding, 1});
-      passContext.encoder.drawFullscreen({});
-    };
-    graph.addPass(std::move(pass));
-    SliceSpace space;
-    space.mapSize = size;
-    space.widestTexels = widestTexels;
-    auto made = declareSliceFilter(frame, space, {.textures = {slices}, .contentKey = 1}, filter);
-    EXPECT_TRUE(made.ok());
-    graph.markOutput(made->textures[0]);
+    LightPasses passes(std::make_unique<FilterPlanner>(size, source, filter, widestTexels));
+    Device device{**context, programs, shared};
+    Status status = passes.prepare(scene);
+    if (status) status = passes.upload(device);
+    EXPECT_TRUE(status) << status.error().message;
+    const framegraph::ResourceId filtered = passes.declare(view, graph).textures[0].resource;
+    graph.markOutput(filtered);
     gl::Encoder encoder(**context);
     framegraph::Executor executor(**context);
     const auto plan = framegraph::compile(
@@ -79,10 +97,10 @@ class SliceFilterTest : public test::GlTest {
     EXPECT_TRUE(plan.ok());
     const auto reports = executor.run(graph, *plan, encoder, framegraph::PassTiming::off);
     EXPECT_TRUE(reports.ok());
-    const framegraph::ResourceDesc& desc = graph.resources()[made->textures[0].index];
+    const framegraph::ResourceDesc& desc = graph.resources()[filtered.index];
     Filtered result{.width = desc.width, .height = desc.height};
     result.pixels.resize(4u * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height));
-    encoder.readPixels(*executor.framebufferFor(graph, made->textures[0]), {0, 0, desc.width, desc.height},
+    encoder.readPixels(*executor.framebufferFor(graph, filtered), {0, 0, desc.width, desc.height},
                        result.pixels.data());
     return result;
   }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "light_rig.hpp"
 
+#include <algorithm>
+
 #include "gl/embedded_shaders.hpp"
 #include "scenes/scene_source.hpp"
 
@@ -34,37 +36,62 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
     }
   }
   const planner::LightFit fit = planner::fitLight(light_, points_, {.mapSize = mapSize});
-  frame_ =
-      std::make_unique<techniques::LightFrame>(techniques::LightFrame{.capabilities = context.capabilities(),
-                                                                      .context = context,
-                                                                      .programs = programs_,
-                                                                      .shared = shared_,
-                                                                      .settings = settings_,
-                                                                      .graph = graph_,
-                                                                      .view = view_,
-                                                                      .light = light_,
-                                                                      .fit = fit,
-                                                                      .casterPointsWorld = points_,
-                                                                      .receiverFarDistance = 1.3 * farthest,
-                                                                      .casters = casters_,
-                                                                      .groups = groups_,
-                                                                      .contentKey = 1,
-                                                                      .sceneKey = 1});
+  scene_ = std::make_unique<techniques::LightScene>(
+      techniques::LightScene{.capabilities = context.capabilities(),
+                             .settings = settings_,
+                             .screen = view_,
+                             .name = "light 0",
+                             .light = light_,
+                             .views = {{.fit = fit, .casters = casters_, .contentKey = 1, .sceneKey = 1}},
+                             .casterPointsWorld = points_,
+                             .receiverFarDistance = 1.3 * farthest,
+                             .casters = casters_,
+                             .groups = groups_,
+                             .contentKey = 1,
+                             .sceneKey = 1});
 }
 
-std::vector<std::uint8_t> LightRig::run(framegraph::ResourceId resource) {
-  graph_.markOutput(resource);
-  const framegraph::ResourceDesc& desc = graph_.resources()[resource.index];
+namespace {
+class BuildPlanner final : public techniques::LightPlanner {
+ public:
+  explicit BuildPlanner(const LightRig::Build& build) : build_(build) {}
+  Status plan(const techniques::LightScene& scene, techniques::PassPlan& plan) override {
+    plan.shading.textures = {{.sampler = "u_result", .resource = build_(scene, plan)}};
+    return {};
+  }
+
+ private:
+  const LightRig::Build& build_;
+};
+}  // namespace
+
+framegraph::ResourceId imageNamed(const techniques::PassPlan& plan, const std::string& name) {
+  const auto found = std::ranges::find(plan.images, name, &framegraph::ResourceDesc::name);
+  EXPECT_NE(found, plan.images.end()) << name;
+  return {static_cast<std::uint32_t>(found - plan.images.begin())};
+}
+
+std::vector<std::uint8_t> LightRig::run(const Build& build) {
+  techniques::LightPasses passes(std::make_unique<BuildPlanner>(build));
+  techniques::Device device{context_, programs_, shared_};
+  Status status = passes.prepare(*scene_);
+  if (status) status = passes.upload(device);
+  EXPECT_TRUE(status) << status.error().message;
+  if (!status) return {};
+  framegraph::Graph graph;
+  const framegraph::ResourceId resource = passes.declare(view_, graph).textures[0].resource;
+  graph.markOutput(resource);
+  const framegraph::ResourceDesc& desc = graph.resources()[resource.index];
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(desc.width) *
                                    static_cast<std::size_t>(desc.height) * 4);
   const auto plan = framegraph::compile(
-      graph_, [this](const framegraph::ResourceDesc& held) { return executor_->contentKeyOf(held); });
+      graph, [this](const framegraph::ResourceDesc& held) { return executor_->contentKeyOf(held); });
   EXPECT_TRUE(plan) << plan.error().message;
   if (!plan) return pixels;
   encoder_.beginFrame();
-  const auto reports = executor_->run(graph_, *plan, encoder_, framegraph::PassTiming::off);
+  const auto reports = executor_->run(graph, *plan, encoder_, framegraph::PassTiming::off);
   EXPECT_TRUE(reports) << reports.error().message;
-  const gl::Framebuffer* framebuffer = executor_->framebufferFor(graph_, resource);
+  const gl::Framebuffer* framebuffer = executor_->framebufferFor(graph, resource);
   EXPECT_NE(framebuffer, nullptr);
   if (framebuffer) encoder_.readPixels(*framebuffer, {0, 0, desc.width, desc.height}, pixels.data());
   return pixels;

@@ -28,16 +28,15 @@ Maps mapsOf(gl::Context& context, const std::string& scene, int side, const std:
             WidthBuild build, MapContent content = MapContent::casters) {
   Maps maps;
   LightRig rig(context, openBuiltin(scene), side);
-  auto depth = techniques::declareLightDepth(rig.frame(), content);
-  EXPECT_TRUE(depth) << depth.error().message;
-  auto declared = techniques::declarePaperWidth(rig.frame(), *depth, steps, build);
-  EXPECT_TRUE(declared) << declared.error().message;
-  rig.graph().markOutput(declared->occlusion);
-  maps.width = firstChannel(rig.run(declared->map));
-  LightRig again(context, openBuiltin(scene), side);
-  depth = techniques::declareLightDepth(again.frame(), content);
-  declared = techniques::declarePaperWidth(again.frame(), *depth, steps, build);
-  maps.occlusion = firstChannel(again.run(declared->occlusion));
+  const auto planWidth = [&](const techniques::LightScene& light, techniques::PassPlan& plan) {
+    const LightDepth depth = techniques::planLightDepth(light, light.center(), plan, content);
+    return techniques::planPaperWidth(light, plan, depth, steps, build);
+  };
+  maps.width = firstChannel(rig.run(planWidth));
+  maps.occlusion = firstChannel(rig.run([&](const techniques::LightScene& light, techniques::PassPlan& plan) {
+    planWidth(light, plan);
+    return imageNamed(plan, "light 0 shadow width occlusion");
+  }));
   return maps;
 }
 

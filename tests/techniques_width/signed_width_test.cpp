@@ -27,24 +27,33 @@ double stepAt(double distance, const SignedWidthMap& map) {
   return sum * sum / (map.kneeTexels * (map.kneeTexels + map.reachTexels) / map.reachTexels) / 127.0;
 }
 
-struct Declared {
+struct Planned {
   LightRig rig;
   SignedWidthMap map;
-  Declared(gl::Context& context, const scene::SceneDescription& scene, int side) : rig(context, scene, side) {
-    auto depth = techniques::declareLightDepth(rig.frame(), MapContent::casters);
-    EXPECT_TRUE(depth) << depth.error().message;
-    auto made = techniques::declareSignedWidth(rig.frame(), *depth);
-    EXPECT_TRUE(made) << made.error().message;
-    map = *made;
+  Planned(gl::Context& context, const scene::SceneDescription& scene, int side) : rig(context, scene, side) {
+    techniques::PassPlan plan;
+    map = planMap(rig.scene(), plan);
+  }
+  static SignedWidthMap planMap(const techniques::LightScene& light, techniques::PassPlan& plan) {
+    const auto depth = techniques::planLightDepth(light, light.center(), plan, MapContent::casters);
+    return techniques::planSignedWidth(light, plan, depth);
+  }
+  std::vector<std::uint8_t> runMap() {
+    return rig.run([](const auto& light, techniques::PassPlan& plan) { return planMap(light, plan).map; });
+  }
+  std::vector<std::uint8_t> runBoxes() {
+    return rig.run(
+        [](const auto& light, techniques::PassPlan& plan) { return planMap(light, plan).boxes.atlas; });
   }
 };
 
 std::vector<std::uint8_t> occlusionOf(gl::Context& context, const scene::SceneDescription& scene, int side) {
   LightRig rig(context, scene, side);
-  auto depth = techniques::declareLightDepth(rig.frame(), MapContent::casters);
-  auto paper =
-      techniques::declarePaperWidth(rig.frame(), *depth, techniques::widthSteps(3, 4), WidthBuild::gpu);
-  const std::vector<std::uint8_t> rgba = rig.run(paper->occlusion);
+  const std::vector<std::uint8_t> rgba = rig.run([](const auto& light, techniques::PassPlan& plan) {
+    const auto depth = techniques::planLightDepth(light, light.center(), plan, MapContent::casters);
+    techniques::planPaperWidth(light, plan, depth, techniques::widthSteps(3, 4), WidthBuild::gpu);
+    return imageNamed(plan, "light 0 shadow width occlusion");
+  });
   std::vector<std::uint8_t> occluded;
   for (std::size_t i = 0; i < rgba.size(); i += 4) occluded.push_back(rgba[i]);
   return occluded;
@@ -58,9 +67,9 @@ TEST_F(SignedWidth, HoldsTheDistanceToTheSilhouette) {
     scene::SceneDescription scene = openBuiltin(name);
     // A light of another shape stretches the width map's texels.
     if (scene.name.find("figure") != std::string::npos) scene.lights[0].halfV *= 0.3;
-    Declared declared(context(), scene, kSide);
-    const SignedWidthMap& map = declared.map;
-    const std::vector<std::uint8_t> pixels = declared.rig.run(map.map);
+    Planned planned(context(), scene, kSide);
+    const SignedWidthMap& map = planned.map;
+    const std::vector<std::uint8_t> pixels = planned.runMap();
     const std::vector<std::uint8_t> occlusion = occlusionOf(context(), scene, kSide);
     const auto occluded = [&](int x, int y) {
       return x >= 0 && y >= 0 && x < kSide && y < kSide &&
@@ -107,9 +116,9 @@ TEST_F(SignedWidth, HoldsTheDistanceToTheSilhouette) {
 TEST_F(SignedWidth, BoxesHoldTheOccupiedShare) {
   constexpr int kSide = 256;
   const scene::SceneDescription scene = openBuiltin("box@light=1");
-  Declared declared(context(), scene, kSide);
-  const SignedWidthMap& map = declared.map;
-  const std::vector<std::uint8_t> atlas = declared.rig.run(map.boxes.atlas);
+  Planned planned(context(), scene, kSide);
+  const SignedWidthMap& map = planned.map;
+  const std::vector<std::uint8_t> atlas = planned.runBoxes();
   const std::vector<std::uint8_t> occlusion = occlusionOf(context(), scene, kSide);
   const int rowTexels = 2 * map.width;
   int checked = 0;
@@ -152,9 +161,9 @@ TEST_F(SignedWidth, BoxesHoldTheOccupiedShare) {
 TEST_F(SignedWidth, EmptyDepthHoldsNoSilhouette) {
   // A single far texel-sized caster leaves nearly all of the map without a silhouette in reach: distance
   // -reach, lit.
-  Declared declared(context(), openBuiltin("box@light=0.05"), 256);
-  const SignedWidthMap& map = declared.map;
-  const std::vector<std::uint8_t> pixels = declared.rig.run(map.map);
+  Planned planned(context(), openBuiltin("box@light=0.05"), 256);
+  const SignedWidthMap& map = planned.map;
+  const std::vector<std::uint8_t> pixels = planned.runMap();
   EXPECT_EQ(pixels[0], 0) << "corner of the margin: outside by the reach or more";
   EXPECT_GT(map.margin, 0);
 }
