@@ -111,7 +111,8 @@ techniques::Technique* Engine::State::techniqueNamed(std::string_view id) const 
   return found == techniques.end() ? nullptr : found->get();
 }
 
-Status Engine::State::declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
+Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
+                                   const planner::LightPlan& plan,
                                    const std::vector<const EngineObject*>& sceneObjects,
                                    std::uint64_t sceneRevision, const RenderDesc& desc) {
   const scene::AreaLight& light = lights[index];
@@ -152,6 +153,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   const techniques::LightScene scene{.capabilities = context->capabilities(),
                                      .settings = *settings,
                                      .screen = frame.view,
+                                     .channel = static_cast<int>(index),
                                      .name = "light " + std::to_string(index),
                                      .light = cache.light,
                                      .views = {{.fit = cache.fit,
@@ -174,7 +176,7 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
                             standIn->reason + outcome);
     if (!hostEvaluates) used = techniqueNamed(standIn->id);
   }
-  auto shading = shadingOf(frame, index, *used, scene);
+  auto shading = shadingOf(passes, index, *used, scene);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
   if (desc.output == Output::lightsOnly) {
@@ -188,8 +190,8 @@ Status Engine::State::declareLight(Frame& frame, std::size_t index, const planne
   return {};
 }
 
-Result<techniques::ReceiverShading> Engine::State::shadingOf(Frame& frame, std::size_t index,
-                                                             techniques::Technique& used,
+Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
+                                                             std::size_t index, techniques::Technique& used,
                                                              const techniques::LightScene& scene) {
   LightCache& cache = lightCaches[index];
   if (cache.passesOf != &used) {
@@ -199,13 +201,14 @@ Result<techniques::ReceiverShading> Engine::State::shadingOf(Frame& frame, std::
         lightPlanner ? std::make_unique<techniques::LightPasses>(std::move(lightPlanner)) : nullptr;
   }
   if (!cache.passes) {
-    const techniques::LightFrame lightFrame(scene, *context, *programs, frame.graph, static_cast<int>(index));
+    const techniques::LightFrame lightFrame(scene, *context, *programs, passes.graph,
+                                            static_cast<int>(index));
     return used.declare(lightFrame);
   }
   techniques::Device device{*context, *programs, shared};
   if (Status s = cache.passes->prepare(scene); !s) return s.error();
   if (Status s = cache.passes->upload(device); !s) return s.error();
-  return cache.passes->declare(frame.view, frame.graph);
+  return cache.passes->declare(passes);
 }
 
 void Engine::State::declareVisibilityPass(Frame& frame, const RenderDesc& desc,
@@ -329,8 +332,10 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   }
   frame->lights.resize(lights.size());
   lightCaches.resize(lights.size());
+  techniques::FramePasses passes{frame->view, frame->graph};
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (Status s = declareLight(*frame, i, framePlan.lights[i], sceneObjects, sceneRevision, desc); !s)
+    if (Status s = declareLight(*frame, passes, i, framePlan.lights[i], sceneObjects, sceneRevision, desc);
+        !s)
       return s;
   }
   if (desc.output != Output::lightsOnly) {

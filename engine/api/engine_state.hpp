@@ -115,11 +115,11 @@ struct Engine::State {
   gl::HostStatePolicy policy() const;
   /// Null when there is none of that id.
   techniques::Technique* techniqueNamed(std::string_view id) const;
-  Status declareLight(Frame& frame, std::size_t index, const planner::LightPlan& plan,
-                      const std::vector<const EngineObject*>& objects, std::uint64_t sceneRevision,
-                      const RenderDesc& desc);
+  Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
+                      const planner::LightPlan& plan, const std::vector<const EngineObject*>& objects,
+                      std::uint64_t sceneRevision, const RenderDesc& desc);
   /// Prepares, uploads and declares the light's passes.
-  Result<techniques::ReceiverShading> shadingOf(Frame& frame, std::size_t index,
+  Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index,
                                                 techniques::Technique& technique,
                                                 const techniques::LightScene& scene);
   void declareVisibilityPass(Frame& frame, const RenderDesc& desc,

@@ -44,7 +44,7 @@ class FilterPlanner final : public LightPlanner {
          }});
     PlannedPass pass{
         .name = "slices", .stage = framegraph::PassStage::light, .writes = {{.resource = slices}}};
-    pass.draws.push_back({.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+    pass.draws.push_back({.program = plan.addProgram({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}}),
                           .textures = {{.sampler = "u_source", .own = source}}});
     plan.passes.push_back(std::move(pass));
     SliceSpace space;
@@ -88,7 +88,8 @@ class SliceFilterTest : public test::GlTest {
     Status status = passes.prepare(scene);
     if (status) status = passes.upload(device);
     EXPECT_TRUE(status) << status.error().message;
-    const framegraph::ResourceId filtered = passes.declare(view, graph).textures[0].resource;
+    FramePasses frame{view, graph};
+    const framegraph::ResourceId filtered = passes.declare(frame).textures[0].resource;
     graph.markOutput(filtered);
     gl::Encoder encoder(**context);
     framegraph::Executor executor(**context);

@@ -79,7 +79,8 @@ std::vector<std::uint8_t> LightRig::run(const Build& build) {
   EXPECT_TRUE(status) << status.error().message;
   if (!status) return {};
   framegraph::Graph graph;
-  const framegraph::ResourceId resource = passes.declare(view_, graph).textures[0].resource;
+  techniques::FramePasses frame{view_, graph};
+  const framegraph::ResourceId resource = passes.declare(frame).textures[0].resource;
   graph.markOutput(resource);
   const framegraph::ResourceDesc& desc = graph.resources()[resource.index];
   std::vector<std::uint8_t> pixels(static_cast<std::size_t>(desc.width) *

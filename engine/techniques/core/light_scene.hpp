@@ -41,6 +41,7 @@ struct LightScene {
   const device::Capabilities& capabilities;
   const Settings& settings;
   const View& screen;
+  int channel = 0;   ///< its place among the frame's lights, of images that hold one in each channel
   std::string name;  ///< "light 0": what names of images and passes begin with
   const scene::AreaLight& light;
   std::vector<LightView> views;  ///< at least one; the first is from its centre, of all its casters

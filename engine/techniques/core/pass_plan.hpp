@@ -78,7 +78,7 @@ struct ReadBackDraw {
 
 /// One program with what it reads, and what is drawn with it.
 struct PlannedDraw {
-  device::ProgramVariant program;  ///< of all but ReceiversDraw, whose shading has its own
+  std::uint32_t program = 0;  ///< in PassPlan::programs; of all but ReceiversDraw, whose shading has its own
   std::vector<TextureRead> textures{};
   device::UniformList uniforms{};
   device::DrawState state{};
@@ -94,6 +94,10 @@ struct PlannedPass {
   std::uint64_t contentKey = 0;  ///< see framegraph::PassDesc
   std::string rebindReason{};
   std::vector<PlannedDraw> draws{};
+  /// Set: one pass of this name serves all lights of the frame. So many draws, the first, are drawn once;
+  /// those after them for each light. All lights plan the same writes, and draws after the first read nothing
+  /// more.
+  std::optional<std::size_t> drawsForAllLights{};
 };
 
 /// A texture of the technique's own. Uploaded when its key changes.
@@ -108,31 +112,28 @@ struct PlannedTexture {
 /// Vertices or indices. Uploaded when its key changes.
 struct PlannedBuffer {
   enum class Kind { vertices, indices } kind = Kind::vertices;
+  std::uint64_t id = 0;   ///< the same from frame to frame, so that GL's buffer is kept; once a plan
   std::uint64_t key = 0;  ///< of its content; never 0
   std::shared_ptr<const std::vector<std::byte>> bytes;
 };
 
 struct PassPlan {
+  std::vector<device::ProgramVariant> programs;
   std::vector<framegraph::ResourceDesc> images;
+  std::vector<bool> imageIsShared;  ///< by image: all lights that plan one of this name mean the same
   std::vector<PlannedPass> passes;
   std::vector<PlannedTexture> textures;
   std::vector<PlannedBuffer> buffers;
   std::vector<framegraph::Graph::Skipped> notes;  ///< what was not done, with its reason
   ReceiverShading shading;                        ///< its resources are indices into `images`
 
-  framegraph::ResourceId addImage(framegraph::ResourceDesc desc) {
-    images.push_back(std::move(desc));
-    return {static_cast<std::uint32_t>(images.size() - 1)};
-  }
-  std::uint32_t addTexture(PlannedTexture texture) {
-    textures.push_back(std::move(texture));
-    return static_cast<std::uint32_t>(textures.size() - 1);
-  }
+  std::uint32_t addProgram(device::ProgramVariant variant);  ///< once each
+  framegraph::ResourceId addImage(framegraph::ResourceDesc desc);
+  framegraph::ResourceId addSharedImage(framegraph::ResourceDesc desc);
+  std::uint32_t addTexture(PlannedTexture texture);
+  std::uint32_t addBuffer(PlannedBuffer buffer);
   /// Items that live as long as the plan.
-  std::span<const DrawItem> keep(std::vector<DrawItem> items) {
-    kept_.push_back(std::make_unique<std::vector<DrawItem>>(std::move(items)));
-    return *kept_.back();
-  }
+  std::span<const DrawItem> keep(std::vector<DrawItem> items);
 
  private:
   std::vector<std::unique_ptr<std::vector<DrawItem>>> kept_;

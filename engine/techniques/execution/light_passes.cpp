@@ -12,7 +12,7 @@ using framegraph::ResourceId;
 
 /// Of the plan's images in the graph.
 struct Placed {
-  std::span<const ResourceId> images;
+  const std::vector<ResourceId>& images;
   ResourceId of(ResourceId image) const { return images[image.index]; }
   void place(ReceiverShading& shading) const {
     for (TextureRead& read : shading.textures) {
@@ -90,19 +90,21 @@ Status LightPasses::upload(Device& device) {
 
 Status LightPasses::link(Device& device) {
   programs_.clear();
+  for (const device::ProgramVariant& variant : plan_.programs) {
+    auto program = device.programs.get(variant);
+    if (!program) return program.error();
+    programs_.push_back(*program);
+  }
+  receivers_.clear();
   for (const PlannedPass& pass : plan_.passes) {
-    std::vector<DrawPrograms>& linked = programs_.emplace_back();
-    for (const PlannedDraw& draw : pass.draws) {
-      DrawPrograms& programs = linked.emplace_back();
-      if (const auto* receivers = std::get_if<ReceiversDraw>(&draw.what)) {
-        auto set = receiverPrograms(device.programs, receivers->shading, receivers->output, receivers->items);
-        if (!set) return set.error();
-        programs.receivers = *set;
-        continue;
-      }
-      auto program = device.programs.get(draw.program);
-      if (!program) return program.error();
-      programs.program = *program;
+    std::vector<ReceiverProgramSet>& sets = receivers_.emplace_back();
+    for (std::size_t i = 0; i < pass.draws.size(); ++i) {
+      const auto* receivers = std::get_if<ReceiversDraw>(&pass.draws[i].what);
+      if (receivers == nullptr) continue;
+      auto set = receiverPrograms(device.programs, receivers->shading, receivers->output, receivers->items);
+      if (!set) return set.error();
+      sets.resize(i + 1);
+      sets[i] = *set;
     }
   }
   return {};
@@ -145,11 +147,12 @@ Status LightPasses::uploadTextures(Device& device) {
 }
 
 Status LightPasses::uploadBuffers(Device& device) {
-  buffers_.resize(plan_.buffers.size());
-  for (std::size_t i = 0; i < buffers_.size(); ++i) {
-    const PlannedBuffer& planned = plan_.buffers[i];
-    OwnBuffer& own = buffers_[i];
-    if (own.key == planned.key || !planned.bytes || planned.bytes->empty()) continue;
+  std::unordered_map<std::uint64_t, OwnBuffer> kept;
+  buffersOfPlan_.clear();
+  for (const PlannedBuffer& planned : plan_.buffers) {
+    OwnBuffer& own = kept[planned.id];
+    if (const auto held = buffers_.find(planned.id); held != buffers_.end()) own = std::move(held->second);
+    if (own.key == planned.key || planned.bytes->empty()) continue;
     own.key = 0;
     if (own.buffer) {
       if (Status s = own.buffer.update(device.context, *planned.bytes); !s) return s;
@@ -162,69 +165,106 @@ Status LightPasses::uploadBuffers(Device& device) {
     }
     own.key = planned.key;
   }
+  buffers_ = std::move(kept);
+  for (const PlannedBuffer& planned : plan_.buffers)
+    buffersOfPlan_.push_back(&buffers_.at(planned.id).buffer);
   return {};
 }
 
-ReceiverShading LightPasses::declare(const View& view, framegraph::Graph& graph) const {
-  auto images = std::make_shared<std::vector<ResourceId>>();
-  for (const framegraph::ResourceDesc& desc : plan_.images) images->push_back(graph.addResource(desc));
-  const Placed placed{*images};
-  for (std::size_t i = 0; i < plan_.passes.size(); ++i) {
-    const PlannedPass& planned = plan_.passes[i];
-    framegraph::PassDesc pass{.name = planned.name,
-                              .stage = planned.stage,
-                              .reads = readsOf(planned),
-                              .writes = planned.writes,
-                              .contentKey = planned.contentKey,
-                              .rebindReason = planned.rebindReason};
-    for (ResourceId& read : pass.reads) read = placed.of(read);
-    for (framegraph::Attachment& write : pass.writes) write.resource = placed.of(write.resource);
-    pass.execute = [this, i, &view, images](framegraph::PassContext& context) {
-      run(i, view, *images, context);
-    };
-    graph.addPass(std::move(pass));
+LightPasses::Images LightPasses::declareImages(framegraph::Graph& graph) const {
+  Images images;
+  for (std::size_t i = 0; i < plan_.images.size(); ++i) {
+    const auto& declared = graph.resources();
+    const auto found = plan_.imageIsShared[i] ? std::ranges::find(declared, plan_.images[i].name,
+                                                                  &framegraph::ResourceDesc::name)
+                                              : declared.end();
+    images.push_back(found == declared.end()
+                         ? graph.addResource(plan_.images[i])
+                         : ResourceId{static_cast<std::uint32_t>(found - declared.begin())});
   }
-  for (const auto& note : plan_.notes) graph.noteSkipped(note.what, note.why);
+  return images;
+}
+
+void LightPasses::declarePass(std::size_t index, const Images& images, FramePasses& frame) const {
+  const PlannedPass& planned = plan_.passes[index];
+  auto parts = std::make_shared<std::vector<SharedPass::Part>>();
+  if (planned.drawsForAllLights) {
+    const auto known = std::ranges::find(frame.shared, planned.name, &SharedPass::name);
+    if (known != frame.shared.end()) {
+      known->parts->push_back({this, index, images});
+      return;
+    }
+    frame.shared.push_back({planned.name, parts});
+  }
+  parts->push_back({this, index, images});
+  const Placed placed{images};
+  framegraph::PassDesc pass{.name = planned.name,
+                            .stage = planned.stage,
+                            .reads = readsOf(planned),
+                            .writes = planned.writes,
+                            .contentKey = planned.contentKey,
+                            .rebindReason = planned.rebindReason};
+  for (ResourceId& read : pass.reads) read = placed.of(read);
+  for (framegraph::Attachment& write : pass.writes) write.resource = placed.of(write.resource);
+  pass.execute = [parts, shared = planned.drawsForAllLights,
+                  &view = frame.view](framegraph::PassContext& context) {
+    for (std::size_t i = 0; i < parts->size(); ++i) {
+      const SharedPass::Part& part = (*parts)[i];
+      const std::size_t first = i == 0 ? 0 : *shared;
+      part.light->run(part.pass, first, view, part.images, context);
+    }
+  };
+  frame.graph.addPass(std::move(pass));
+}
+
+ReceiverShading LightPasses::declare(FramePasses& frame) const {
+  const Images images = declareImages(frame.graph);
+  for (std::size_t i = 0; i < plan_.passes.size(); ++i) declarePass(i, images, frame);
+  for (const auto& note : plan_.notes) frame.graph.noteSkipped(note.what, note.why);
   ReceiverShading shading = plan_.shading;
-  placed.place(shading);
+  Placed{images}.place(shading);
   return shading;
 }
 
-void LightPasses::run(std::size_t pass, const View& view, std::span<const ResourceId> images,
+void LightPasses::run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
                       framegraph::PassContext& context) const {
-  gl::Encoder& encoder = context.encoder;
-  const Placed placed{images};
   const std::vector<PlannedDraw>& draws = plan_.passes[pass].draws;
-  for (std::size_t i = 0; i < draws.size(); ++i) {
-    const PlannedDraw& draw = draws[i];
-    if (draw.viewport) encoder.setViewport(*draw.viewport);
-    if (const auto* receivers = std::get_if<ReceiversDraw>(&draw.what)) {
+  for (std::size_t i = firstDraw; i < draws.size(); ++i) {
+    if (draws[i].viewport) context.encoder.setViewport(*draws[i].viewport);
+    if (const auto* receivers = std::get_if<ReceiversDraw>(&draws[i].what)) {
       ReceiverShading shading = receivers->shading;
-      placed.place(shading);
-      drawReceivers(context, shading, programs_[pass][i].receivers, view, receivers->items, nullptr,
+      Placed{images}.place(shading);
+      drawReceivers(context, shading, receivers_[pass][i], view, receivers->items, nullptr,
                     receivers->target);
-      continue;
-    }
-    gl::Program& program = *programs_[pass][i].program;
-    if (const auto* back = std::get_if<ReadBackDraw>(&draw.what)) {
-      drawReadBack(context, program, context.texture(placed.of(back->image)), draw, *back);
-      continue;
-    }
-    encoder.useProgram(program);
-    program.set(encoder.context(), draw.uniforms);
-    std::vector<gl::TextureBinding> bindings;
-    for (const TextureRead& read : draw.textures) {
-      bindings.push_back({program.samplerUnit(read.sampler),
-                          read.texture ? read.texture : &context.texture(placed.of(read.resource))});
-    }
-    if (!bindings.empty()) encoder.bindTextures(bindings);
-    if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
-      drawMeshes(encoder, program, draw, *meshes);
-    } else if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
-      drawBuffers(encoder, draw, *triangles);
     } else {
-      encoder.drawFullscreen(draw.state);
+      runDraw(draws[i], images, context);
     }
+  }
+}
+
+void LightPasses::runDraw(const PlannedDraw& draw, const Images& images,
+                          framegraph::PassContext& context) const {
+  gl::Encoder& encoder = context.encoder;
+  gl::Program& program = *programs_[draw.program];
+  const Placed placed{images};
+  if (const auto* back = std::get_if<ReadBackDraw>(&draw.what)) {
+    drawReadBack(context, program, context.texture(placed.of(back->image)), draw, *back);
+    return;
+  }
+  encoder.useProgram(program);
+  program.set(encoder.context(), draw.uniforms);
+  std::vector<gl::TextureBinding> bindings;
+  for (const TextureRead& read : draw.textures) {
+    bindings.push_back({program.samplerUnit(read.sampler),
+                        read.texture ? read.texture : &context.texture(placed.of(read.resource))});
+  }
+  if (!bindings.empty()) encoder.bindTextures(bindings);
+  if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
+    drawMeshes(encoder, program, draw, *meshes);
+  } else if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
+    drawBuffers(encoder, draw, *triangles);
+  } else {
+    encoder.drawFullscreen(draw.state);
   }
 }
 
@@ -243,12 +283,12 @@ void LightPasses::drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw,
                               const BufferDraw& triangles) const {
   std::vector<gl::AttributeBinding> bindings;
   for (const BufferDraw::Attribute& attribute : triangles.attributes) {
-    bindings.push_back({attribute.attribute, &buffers_[attribute.buffer].buffer, attribute.components,
+    bindings.push_back({attribute.attribute, buffersOfPlan_[attribute.buffer], attribute.components,
                         attribute.type, attribute.strideBytes, attribute.offsetBytes});
   }
   const bool indexed = triangles.indexType != device::IndexType::none;
   encoder.draw(draw.state, {.attributes = bindings,
-                            .indices = indexed ? &buffers_[triangles.indices].buffer : nullptr,
+                            .indices = indexed ? buffersOfPlan_[triangles.indices] : nullptr,
                             .indexType = triangles.indexType,
                             .first = triangles.first,
                             .count = triangles.count});
@@ -260,7 +300,7 @@ std::uint64_t LightPasses::memoryBytes() const {
     const gl::TextureDesc& desc = own.texture.desc();
     bytes += static_cast<std::uint64_t>(desc.width) * desc.height * gl::bytesPerTexel(desc.format);
   }
-  for (const OwnBuffer& own : buffers_) bytes += own.buffer.byteCount();
+  for (const auto& [id, own] : buffers_) bytes += own.buffer.byteCount();
   return bytes;
 }
 

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "framegraph/executor.hpp"
@@ -24,6 +25,26 @@ struct Device {
   SharedTextures& shared;
 };
 
+class LightPasses;
+
+/// A pass that several lights draw into, while their passes are declared.
+struct SharedPass {
+  std::string name;
+  struct Part {
+    const LightPasses* light = nullptr;
+    std::size_t pass = 0;
+    std::vector<framegraph::ResourceId> images;
+  };
+  std::shared_ptr<std::vector<Part>> parts;
+};
+
+/// What the lights of one frame declare into.
+struct FramePasses {
+  const View& view;
+  framegraph::Graph& graph;
+  std::vector<SharedPass> shared{};
+};
+
 /// One light under one technique, from frame to frame.
 class LightPasses {
  public:
@@ -33,15 +54,11 @@ class LightPasses {
   Status prepare(const LightScene& scene);
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
-  /// Adds images and passes; they refer to this and to `view` until the frame ends.
-  ReceiverShading declare(const View& view, framegraph::Graph& graph) const;
+  /// Adds images and passes; they refer to this and to the view until the frame ends.
+  ReceiverShading declare(FramePasses& frame) const;
   std::uint64_t memoryBytes() const;  ///< of textures and buffers of its own
 
  private:
-  struct DrawPrograms {
-    gl::Program* program = nullptr;
-    ReceiverProgramSet receivers;  ///< of ReceiversDraw
-  };
   struct OwnTexture {
     std::uint64_t key = 0;
     gl::Texture texture;
@@ -50,21 +67,27 @@ class LightPasses {
     std::uint64_t key = 0;
     gl::Buffer buffer;
   };
+  using Images = std::vector<framegraph::ResourceId>;  ///< of the plan's, the graph's
   Status link(Device& device);
   Status uploadTextures(Device& device);
   Status uploadBuffers(Device& device);
-  void run(std::size_t pass, const View& view, std::span<const framegraph::ResourceId> images,
+  Images declareImages(framegraph::Graph& graph) const;
+  void declarePass(std::size_t pass, const Images& images, FramePasses& frame) const;
+  void run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
            framegraph::PassContext& context) const;
+  void runDraw(const PlannedDraw& draw, const Images& images, framegraph::PassContext& context) const;
   void drawMeshes(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
                   const MeshDraw& meshes) const;
   void drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw, const BufferDraw& triangles) const;
 
   std::unique_ptr<LightPlanner> planner_;
   PassPlan plan_;
-  std::vector<std::vector<DrawPrograms>> programs_;  ///< by pass and draw
+  std::vector<gl::Program*> programs_;                      ///< by PassPlan::programs
+  std::vector<std::vector<ReceiverProgramSet>> receivers_;  ///< by pass and draw; of ReceiversDraw alone
   std::map<std::string, OwnTexture, std::less<>> textures_;
   std::vector<const gl::Texture*> texturesOfPlan_;
-  std::vector<OwnBuffer> buffers_;
+  std::unordered_map<std::uint64_t, OwnBuffer> buffers_;  ///< by PlannedBuffer::id
+  std::vector<const gl::Buffer*> buffersOfPlan_;
 };
 
 }  // namespace halfshadow::techniques

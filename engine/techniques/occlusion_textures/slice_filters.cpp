@@ -68,8 +68,8 @@ struct Builder {
 };
 
 /// Into a part of the target.
-PlannedDraw copyDraw(ResourceId source, const Rect& target) {
-  return {.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+PlannedDraw copyDraw(PassPlan& plan, ResourceId source, const Rect& target) {
+  return {.program = plan.addProgram({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}}),
           .textures = {{.sampler = "u_source", .resource = source}},
           .viewport = target};
 }
@@ -81,7 +81,7 @@ ResourceId planMipmaps(const Builder& b, ResourceId source, int lastLevel) {
                    .writes = {{.resource = atlas}},
                    .contentKey = combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel))};
   for (int level = 0; level <= lastLevel; ++level)
-    pass.draws.push_back(copyDraw(source, mipRect(size, level)));
+    pass.draws.push_back(copyDraw(b.plan, source, mipRect(size, level)));
   b.plan.passes.push_back(std::move(pass));
   return atlas;
 }
@@ -127,7 +127,7 @@ ResourceId planNBuffer(const Builder& b, ResourceId source, int lastLevel) {
                    .writes = {{.resource = atlas}},
                    .contentKey = combineKeys(b.key, 0x6bffu + static_cast<std::uint64_t>(lastLevel))};
   for (std::size_t level = 0; level < levels.size(); ++level)
-    pass.draws.push_back(copyDraw(levels[level], layout.rect(static_cast<int>(level))));
+    pass.draws.push_back(copyDraw(b.plan, levels[level], layout.rect(static_cast<int>(level))));
   b.plan.passes.push_back(std::move(pass));
   return atlas;
 }

@@ -95,7 +95,8 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
   pass.writes = {{.resource = result.map, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth, .point = framegraph::AttachmentPoint::depth, .clear = {.depth = 0.0f}}};
   PlannedDraw draw{
-      .program = {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}}};
+      .program = plan.addProgram(
+          {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
   draw.state.depth = {.test = device::Compare::greater, .write = true};
   draw.what = facing(space, plan.keep(std::move(last.drawn)));
   pass.draws.push_back(draw);
@@ -162,7 +163,8 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
     }
     pass.contentKey = key;
     PlannedDraw draw = casterDraw(space, content, scene.casters);
-    draw.program = {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines};
+    draw.program =
+        plan.addProgram({"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines});
     const ChannelBorders borders = channelBorders(space, first, result.slicesPerTexture);
     draw.uniforms.set("u_sliceLow", borders.low);
     draw.uniforms.set("u_sliceHigh", borders.high);

@@ -39,9 +39,14 @@ class ShadowVolume final : public Technique {
              "needs no packed-depth-stencil; auto = stencil where it exists"}};
   }
 
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    const std::string& count = frame.settings.choice("shadow-volume.count");
-    const bool hasStencil = frame.capabilities.has(device::Capability::packedDepthStencil);
+  std::unique_ptr<LightPlanner> newPlanner() const override;
+};
+
+class VolumePlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    const std::string& count = scene.settings.choice("shadow-volume.count");
+    const bool hasStencil = scene.capabilities.has(device::Capability::packedDepthStencil);
     if (count == "stencil" && !hasStencil) {
       return Error{ErrorCode::capabilityMissing,
                    "shadow-volume.count=stencil needs the capability 'packed-depth-stencil', which this "
@@ -49,79 +54,59 @@ class ShadowVolume final : public Technique {
     }
     const VolumeCounter counter =
         count == "blend" || !hasStencil ? VolumeCounter::blend : VolumeCounter::stencil;
-    auto programs = volumePrograms(frame.programs);
-    if (!programs) return programs.error();
-    const VolumeView view = volumeView(frame.screen);
-    auto volumes = prepareVolumes(frame, view, cache_, counter);
-    if (!volumes) return volumes.error();
-    const framegraph::ResourceId target = screenPass(frame, view, *programs, counter);
-    jobs_->push_back({std::move(volumes).value(), frame.lightIndex});
+    const VolumeView view = volumeView(scene.screen);
+    const LightVolumes volumes = lightVolumes(scene, plan, view, cache_, counter);
+    const framegraph::ResourceId target = addScreenPass(scene, plan, view, counter);
+    addVolumeCounts(plan, plan.passes.back(), volumes, counter, scene.channel);
 
-    ReceiverShading shading;
+    ReceiverShading& shading = plan.shading;
     shading.fragmentFile = "screen/screen_visibility.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_screen", .resource = target}};
     for (int column = 0; column < 4; ++column) {
       shading.mapFromWorld[column] =
-          glm::dvec4(frame.fit().lightFromWorld[column].z / frame.fit().nearDistance);
+          glm::dvec4(scene.fit().lightFromWorld[column].z / scene.fit().nearDistance);
     }
     glm::vec4 channel(0.0f);
-    channel[frame.lightIndex] = counter == VolumeCounter::stencil ? 1.0f : -255.0f;
-    const float offset = counter == VolumeCounter::stencil ? 0.0f : 1.0f;
-    shading.setUniforms = [channel, offset](gl::Program& program, gl::Context& context) {
-      program.set(context, "u_channel", channel);
-      program.set(context, "u_offset", offset);
-    };
-    return shading;
+    channel[scene.channel] = counter == VolumeCounter::stencil ? 1.0f : -255.0f;
+    shading.uniforms.set("u_channel", channel);
+    shading.uniforms.set("u_offset", counter == VolumeCounter::stencil ? 0.0f : 1.0f);
+    return {};
   }
 
-  void contextLost() override { cache_.clear(); }
-
  private:
-  struct LightJob {
-    LightVolumes volumes;
-    int channel = 0;
-  };
-
-  /// The frame's one pass, declared with its first light: receivers' depths, then each light's count, without
-  /// leaving the framebuffer.
-  framegraph::ResourceId screenPass(const LightFrame& frame, const VolumeView& view,
-                                    const VolumePrograms& programs, VolumeCounter counter) {
-    const auto& resources = frame.graph.resources();
-    const auto declared = std::ranges::find(resources, kTargetName, &framegraph::ResourceDesc::name);
-    if (declared != resources.end())
-      return {static_cast<std::uint32_t>(std::distance(resources.begin(), declared))};
-    jobs_ = std::make_shared<std::vector<LightJob>>();
+  /// The frame's one pass: receivers' depths, then each light's count, without leaving the framebuffer.
+  static framegraph::ResourceId addScreenPass(const LightScene& scene, PassPlan& plan, const VolumeView& view,
+                                              VolumeCounter counter) {
     const bool stencil = counter == VolumeCounter::stencil;
-    const auto target = frame.graph.addResource(
-        {.name = kTargetName, .width = frame.screen.width, .height = frame.screen.height});
-    const auto depth = frame.graph.addResource(
+    const int width = scene.screen.width, height = scene.screen.height;
+    const auto target = plan.addSharedImage({.name = kTargetName, .width = width, .height = height});
+    const auto depth = plan.addSharedImage(
         {.name = "shadow volumes depth",
-         .width = frame.screen.width,
-         .height = frame.screen.height,
+         .width = width,
+         .height = height,
          .format = stencil ? framegraph::Format::depth24Stencil8 : framegraph::Format::depth24,
          .storage = framegraph::Storage::renderbuffer});
     framegraph::ClearValue clear;
     if (stencil) std::ranges::fill(clear.color, 1.0f);
-    framegraph::PassDesc pass{.name = kPassName, .stage = framegraph::PassStage::receiverPrepass};
+    PlannedPass pass{.name = kPassName, .stage = framegraph::PassStage::receiverPrepass};
     pass.writes = {
         {.resource = target, .point = framegraph::AttachmentPoint::color, .clear = clear},
         {.resource = depth,
          .point = stencil ? framegraph::AttachmentPoint::depthStencil : framegraph::AttachmentPoint::depth,
          .clear = clear}};
-    pass.execute = [view, programs, counter, jobs = jobs_,
-                    receivers = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
-                       framegraph::PassContext& context) {
-      drawVolumeReceivers(context, programs, view, receivers);
-      for (const LightJob& job : *jobs) countVolumes(context, programs, job.volumes, counter, job.channel);
-    };
-    frame.graph.addPass(std::move(pass));
+    pass.draws.push_back(volumeReceivers(plan, view, scene.receivers));
+    pass.drawsForAllLights = pass.draws.size();
+    plan.passes.push_back(std::move(pass));
     return target;
   }
 
   VolumeCache cache_;
-  std::shared_ptr<std::vector<LightJob>> jobs_;  ///< of the frame being declared
 };
+
+std::unique_ptr<LightPlanner> ShadowVolume::newPlanner() const {
+  return std::make_unique<VolumePlanner>();
+}
 }  // namespace
 
 std::unique_ptr<Technique> makeShadowVolume() {

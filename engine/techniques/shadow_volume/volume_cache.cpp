@@ -4,39 +4,39 @@
 
 #include <algorithm>
 #include <limits>
+#include <span>
 
 namespace halfshadow::techniques {
 namespace {
 constexpr std::uint32_t kShortIndexVertices = 65536;
 
 template <typename T>
-Status refill(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
-              const std::vector<T>& values) {
+std::shared_ptr<const std::vector<std::byte>> bytesOf(const std::vector<T>& values) {
   const auto bytes = std::as_bytes(std::span<const T>(values));
-  if (buffer) return buffer.update(context, bytes);
-  auto made = gl::Buffer::create(context, target, bytes, gl::BufferUsage::dynamicDraw);
-  if (!made) return made.error();
-  buffer = std::move(made).value();
-  return {};
+  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
+
+/// Indices of the plan's buffers; added by the first draw that reads them.
+std::uint32_t bufferIn(PassPlan& plan, const PlannedBuffer& buffer) {
+  const auto known = std::ranges::find(plan.buffers, buffer.id, &PlannedBuffer::id);
+  return known == plan.buffers.end() ? plan.addBuffer(buffer)
+                                     : static_cast<std::uint32_t>(known - plan.buffers.begin());
 }
 }  // namespace
 
-Status CasterVolume::upload(gl::Context& context, const VolumeMesh& mesh, Streams& streams) {
+void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
   streams.ranges = mesh.ranges;
   streams.made = true;
-  if (mesh.indices.empty()) return {};
-  if (Status s = refill(context, streams.vertices, gl::BufferTarget::vertex, mesh.vertices); !s) return s;
-  if (*std::ranges::max_element(mesh.indices) < kShortIndexVertices) {
-    streams.indexType = gl::IndexType::uint16;
-    const std::vector<std::uint16_t> narrow(mesh.indices.begin(), mesh.indices.end());
-    return refill(context, streams.indices, gl::BufferTarget::index, narrow);
-  }
-  streams.indexType = gl::IndexType::uint32;
-  return refill(context, streams.indices, gl::BufferTarget::index, mesh.indices);
+  streams.vertices.bytes = bytesOf(mesh.vertices);
+  const bool narrow = mesh.indices.empty() || *std::ranges::max_element(mesh.indices) < kShortIndexVertices;
+  streams.indexType = narrow ? device::IndexType::uint16 : device::IndexType::uint32;
+  streams.indices.bytes = narrow
+                              ? bytesOf(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end()))
+                              : bytesOf(mesh.indices);
 }
 
-void CasterVolume::draw(gl::Encoder& encoder, const gl::DrawState& state, VolumeSurface surface,
-                        std::uint32_t first, std::uint32_t last) const {
+void CasterVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
+                            std::uint32_t first, std::uint32_t last) const {
   const Streams& streams = streams_[static_cast<std::size_t>(surface)];
   const auto& ranges = streams.ranges;
   for (std::size_t i = 0; i < ranges.size();) {
@@ -45,22 +45,23 @@ void CasterVolume::draw(gl::Encoder& encoder, const gl::DrawState& state, Volume
     while (i < ranges.size() && ranges[i].chunk < last && ranges[i].firstVertex == joined.firstVertex) {
       joined.indexCount += ranges[i++].indexCount;
     }
-    const gl::AttributeBinding position{
-        gl::VertexAttribute::position,       &streams.vertices, 4, gl::AttributeType::float32, 16,
-        std::size_t{joined.firstVertex} * 16};
-    encoder.draw(state, {.attributes = std::span(&position, 1),
-                         .indices = &streams.indices,
-                         .indexType = streams.indexType,
-                         .first = joined.firstIndex,
-                         .count = joined.indexCount});
+    PlannedDraw& added = pass.draws.emplace_back(draw);
+    added.what = BufferDraw{.attributes = {{.attribute = device::VertexAttribute::position,
+                                            .buffer = bufferIn(plan, streams.vertices),
+                                            .components = 4,
+                                            .strideBytes = 16,
+                                            .offsetBytes = std::size_t{joined.firstVertex} * 16}},
+                            .indices = bufferIn(plan, streams.indices),
+                            .indexType = streams.indexType,
+                            .first = joined.firstIndex,
+                            .count = joined.indexCount};
   }
 }
 
-Result<const CasterVolume*> VolumeCache::get(gl::Context& context, int lightIndex,
-                                             const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
-                                             VolumeSurface surface, int maxLayers) {
+const CasterVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+                                     VolumeSurface surface, int maxLayers, bool wideIndices) {
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
-  CasterVolume& volume = volumes_[{lightIndex, &mesh}];
+  CasterVolume& volume = volumes_[caster.object];
   volume.used_ = true;
   if (volume.revision_ != caster.revision || volume.lightWorld_ != lightWorld) {
     const glm::dmat3 linear(caster.worldFromObject);
@@ -74,20 +75,21 @@ Result<const CasterVolume*> VolumeCache::get(gl::Context& context, int lightInde
   }
   CasterVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
   if (!streams.made) {
-    const bool wideIndices = context.capabilities().has(device::Capability::uintIndex);
-    const VolumeMesh built =
+    CasterVolume::fill(
+        streams,
         buildVolumeMesh(mesh, volume.silhouette_, volume.chunks_, caster.worldFromObject, lightWorld, surface,
-                        wideIndices ? std::numeric_limits<std::uint32_t>::max() : kShortIndexVertices);
-    if (Status s = volume.upload(context, built, streams); !s) return s.error();
+                        wideIndices ? std::numeric_limits<std::uint32_t>::max() : kShortIndexVertices));
+    const std::uint64_t id = (std::uint64_t{caster.object} * 2 + static_cast<std::uint64_t>(surface)) * 2;
+    streams.vertices.id = id;
+    streams.indices.id = id + 1;
+    streams.vertices.key = streams.indices.key = ++made_;
   }
-  return &volume;
+  return volume;
 }
 
-void VolumeCache::endLight(int lightIndex) {
-  for (auto entry = volumes_.begin(); entry != volumes_.end();) {
-    const bool unused = entry->first.first == lightIndex && !std::exchange(entry->second.used_, false);
-    entry = unused ? volumes_.erase(entry) : std::next(entry);
-  }
+void VolumeCache::endFrame() {
+  std::erase_if(volumes_, [](const auto& entry) { return !entry.second.used_; });
+  for (auto& [object, volume] : volumes_) volume.used_ = false;
 }
 
 }  // namespace halfshadow::techniques

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Shadow volumes on the GPU, one per light and caster, made again only when either changed.
+/// Shadow volumes of one light's casters, made again only when light or caster changed. No GL.
 #pragma once
 
-#include <map>
+#include <cstddef>
+#include <memory>
 #include <span>
-#include <utility>
+#include <unordered_map>
 #include <vector>
 
-#include "gl/encoder.hpp"
-#include "techniques/execution/light_frame.hpp"
+#include "scene/light_silhouettes.hpp"
+#include "techniques/core/pass_plan.hpp"
 #include "techniques/shadow_volume/volume_mesh.hpp"
 
 namespace halfshadow::techniques {
@@ -19,19 +20,21 @@ namespace halfshadow::techniques {
 class CasterVolume {
  public:
   std::span<const VolumeChunk> chunks() const { return chunks_; }
-  /// Draws chunks [first, last) of a surface that was made.
-  void draw(gl::Encoder& encoder, const gl::DrawState& state, VolumeSurface surface, std::uint32_t first,
-            std::uint32_t last) const;
+  /// Adds the buffers of a surface that was made to the plan, and draws of its chunks [first, last) like
+  /// `draw`.
+  void addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
+                std::uint32_t first, std::uint32_t last) const;
 
  private:
   friend class VolumeCache;
   struct Streams {
-    gl::Buffer vertices, indices;
-    gl::IndexType indexType = gl::IndexType::uint16;
+    PlannedBuffer vertices{.kind = PlannedBuffer::Kind::vertices},
+        indices{.kind = PlannedBuffer::Kind::indices};
+    device::IndexType indexType = device::IndexType::uint16;
     std::vector<VolumeMesh::Range> ranges;
     bool made = false;
   };
-  Status upload(gl::Context& context, const VolumeMesh& mesh, Streams& streams);
+  static void fill(Streams& streams, const VolumeMesh& mesh);
   std::uint64_t revision_ = 0;
   glm::dvec3 lightWorld_{0.0};
   bool used_ = false;
@@ -40,19 +43,18 @@ class CasterVolume {
   Streams streams_[2];
 };
 
-/// Of one technique. Buffers of a caster that keeps moving are kept and refilled.
+/// Of one light.
 class VolumeCache {
  public:
-  /// `maxLayers`: of each chunk; the same in every call. The pointer stays valid until the light's
-  /// endLight(). Errors: outOfMemory.
-  Result<const CasterVolume*> get(gl::Context& context, int lightIndex, const glm::dvec3& lightWorld,
-                                  const scene::PlacedCaster& caster, VolumeSurface surface, int maxLayers);
-  /// Drops the light's volumes that were not asked for since the last call.
-  void endLight(int lightIndex);
-  void clear() { volumes_.clear(); }
+  /// `maxLayers`: of each chunk; the same in every call. The reference stays valid until endFrame().
+  const CasterVolume& get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+                          VolumeSurface surface, int maxLayers, bool wideIndices);
+  /// Drops the volumes that were not asked for since the last call.
+  void endFrame();
 
  private:
-  std::map<std::pair<int, const scene::HalfEdgeMesh*>, CasterVolume> volumes_;
+  std::unordered_map<std::uint32_t, CasterVolume> volumes_;  ///< by PlacedCaster::object
+  std::uint64_t made_ = 0;                                   ///< counts up: keys of buffers
 };
 
 }  // namespace halfshadow::techniques

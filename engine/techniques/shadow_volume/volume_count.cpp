@@ -8,11 +8,11 @@
 
 namespace halfshadow::techniques {
 namespace {
-using gl::BlendEquation;
-using gl::BlendFactor;
-using gl::Compare;
-using gl::Cull;
-using gl::StencilOp;
+using device::BlendEquation;
+using device::BlendFactor;
+using device::Compare;
+using device::Cull;
+using device::StencilOp;
 
 /// Moves volumes back by a few steps of depth: a receiver in the plane of a cap is then in front of it,
 /// however two different triangles round. Nothing for slopes: of two sides seen edge-on it would move only
@@ -22,11 +22,11 @@ const glm::vec2 kBehindCoplanar(0.0f, 4.0f);
 /// stored must come back to where they were.
 constexpr float kStep = 1.0f / 255.0f;
 
-std::optional<gl::Rect> unite(const std::optional<gl::Rect>& a, const std::optional<gl::Rect>& b) {
+std::optional<Rect> unite(const std::optional<Rect>& a, const std::optional<Rect>& b) {
   if (!a || !b) return std::nullopt;
   const int x = std::min(a->x, b->x), y = std::min(a->y, b->y);
-  return gl::Rect{x, y, std::max(a->x + a->width, b->x + b->width) - x,
-                  std::max(a->y + a->height, b->y + b->height) - y};
+  return Rect{x, y, std::max(a->x + a->width, b->x + b->width) - x,
+              std::max(a->y + a->height, b->y + b->height) - y};
 }
 
 /// Where casters can cover each other seen from the light: a grid over tangents in which each adds its
@@ -116,72 +116,86 @@ class Batcher {
   std::vector<VolumeBatch> batches_;
 };
 
-void drawStencil(gl::Encoder& encoder, const VolumeDraw& draw) {
-  gl::DrawState state;
-  state.depth = {.test = Compare::less, .write = false};
-  state.colorMask.fill(false);
-  state.polygonOffset = kBehindCoplanar;
-  state.scissor = draw.scissor;
-  state.stencil.enabled = true;
-  gl::StencilFace& entering = draw.mirrored ? state.stencil.back : state.stencil.front;
-  gl::StencilFace& leaving = draw.mirrored ? state.stencil.front : state.stencil.back;
+/// The draws of one light into one channel.
+struct Counting {
+  PassPlan& plan;
+  PlannedPass& pass;
+  glm::mat4 clipFromDirection{1.0f};
+  int channel = 0;
+
+  PlannedDraw volume(const VolumeDraw& draw) const {
+    PlannedDraw planned{.program = plan.addProgram({"volume/volume.vert", "volume/volume.frag", {}})};
+    planned.uniforms.set("u_clipFromDirection", clipFromDirection);
+    planned.uniforms.set("u_clipFromObject", draw.clipFromObject);
+    planned.state.colorMask.fill(false);
+    planned.state.polygonOffset = kBehindCoplanar;
+    planned.state.scissor = draw.scissor;
+    return planned;
+  }
+  PlannedDraw fullscreen(float color, const std::optional<Rect>& scissor) const {
+    PlannedDraw planned{.program = plan.addProgram({"screen/fullscreen.vert", "volume/volume.frag", {}})};
+    planned.uniforms.set("u_color", glm::vec4(color));
+    planned.state.colorMask.fill(false);
+    planned.state.colorMask[static_cast<std::size_t>(channel)] = true;
+    planned.state.scissor = scissor;
+    return planned;
+  }
+};
+
+void addStencil(const Counting& counting, const VolumeDraw& draw) {
+  PlannedDraw planned = counting.volume(draw);
+  planned.state.depth = {.test = Compare::less, .write = false};
+  device::StencilState& stencil = planned.state.stencil;
+  stencil.enabled = true;
+  device::StencilFace& entering = draw.mirrored ? stencil.back : stencil.front;
+  device::StencilFace& leaving = draw.mirrored ? stencil.front : stencil.back;
   (draw.depthFail ? entering.depthFail : entering.pass) =
       draw.depthFail ? StencilOp::decrWrap : StencilOp::incrWrap;
   (draw.depthFail ? leaving.depthFail : leaving.pass) =
       draw.depthFail ? StencilOp::incrWrap : StencilOp::decrWrap;
-  draw.volume->draw(encoder, state, draw.surface, draw.firstChunk, draw.lastChunk);
+  draw.volume->addDraws(counting.plan, counting.pass, planned, draw.surface, draw.firstChunk, draw.lastChunk);
 }
 
-void drawBlended(gl::Encoder& encoder, gl::Program& program, const VolumeDraw& draw, int channel) {
-  gl::DrawState state;
+void addBlended(const Counting& counting, const VolumeDraw& draw) {
+  PlannedDraw planned = counting.volume(draw);
+  planned.uniforms.set("u_color", glm::vec4(kStep));
+  device::DrawState& state = planned.state;
   state.depth = {.test = draw.depthFail ? Compare::gequal : Compare::less, .write = false};
-  state.colorMask.fill(false);
-  state.colorMask[static_cast<std::size_t>(channel)] = true;
-  state.polygonOffset = kBehindCoplanar;
-  state.scissor = draw.scissor;
+  state.colorMask[static_cast<std::size_t>(counting.channel)] = true;
   state.blend = {.enabled = true, .source = BlendFactor::one, .destination = BlendFactor::one};
   // What is added comes first: a channel cannot go below zero.
   const bool addsBack = draw.depthFail != draw.mirrored;
-  program.set(encoder.context(), "u_color", glm::vec4(kStep));
+  const auto add = [&] {
+    draw.volume->addDraws(counting.plan, counting.pass, planned, draw.surface, draw.firstChunk,
+                          draw.lastChunk);
+  };
   state.cull = addsBack ? Cull::front : Cull::back;
-  draw.volume->draw(encoder, state, draw.surface, draw.firstChunk, draw.lastChunk);
+  add();
   state.blend.equation = BlendEquation::reverseSubtract;
   state.cull = addsBack ? Cull::back : Cull::front;
-  draw.volume->draw(encoder, state, draw.surface, draw.firstChunk, draw.lastChunk);
+  add();
 }
 
 /// Writes 0 where the stencil counts something and resets it.
-void resolveStencil(gl::Encoder& encoder, const VolumePrograms& programs,
-                    const std::optional<gl::Rect>& scissor, int channel) {
-  gl::DrawState state;
-  state.colorMask.fill(false);
-  state.colorMask[static_cast<std::size_t>(channel)] = true;
-  state.scissor = scissor;
-  state.stencil.enabled = true;
-  state.stencil.front = {.test = Compare::notEqual, .pass = StencilOp::zero};
-  state.stencil.back = state.stencil.front;
-  encoder.useProgram(*programs.fullscreen);
-  programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(0.0f));
-  encoder.drawFullscreen(state);
+void addStencilResolve(const Counting& counting, const std::optional<Rect>& scissor) {
+  PlannedDraw planned = counting.fullscreen(0.0f, scissor);
+  planned.state.stencil.enabled = true;
+  planned.state.stencil.front = {.test = Compare::notEqual, .pass = StencilOp::zero};
+  planned.state.stencil.back = planned.state.stencil.front;
+  counting.pass.draws.push_back(std::move(planned));
 }
 
 /// Makes one level of every count: doubled eight times it is saturated, then all but one level is taken away.
-void collapseCounts(gl::Encoder& encoder, const VolumePrograms& programs,
-                    const std::optional<gl::Rect>& scissor, int channel) {
-  gl::DrawState state;
-  state.colorMask.fill(false);
-  state.colorMask[static_cast<std::size_t>(channel)] = true;
-  state.scissor = scissor;
-  state.blend = {.enabled = true, .source = BlendFactor::dstColor, .destination = BlendFactor::one};
-  encoder.useProgram(*programs.fullscreen);
-  programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(1.0f));
-  for (int i = 0; i < 8; ++i) encoder.drawFullscreen(state);
-  programs.fullscreen->set(encoder.context(), "u_color", glm::vec4(1.0f - kStep));
-  state.blend = {.enabled = true,
-                 .equation = BlendEquation::reverseSubtract,
-                 .source = BlendFactor::one,
-                 .destination = BlendFactor::one};
-  encoder.drawFullscreen(state);
+void addCollapse(const Counting& counting, const std::optional<Rect>& scissor) {
+  PlannedDraw doubled = counting.fullscreen(1.0f, scissor);
+  doubled.state.blend = {.enabled = true, .source = BlendFactor::dstColor, .destination = BlendFactor::one};
+  counting.pass.draws.insert(counting.pass.draws.end(), 8, doubled);
+  PlannedDraw rest = counting.fullscreen(1.0f - kStep, scissor);
+  rest.state.blend = {.enabled = true,
+                      .equation = BlendEquation::reverseSubtract,
+                      .source = BlendFactor::one,
+                      .destination = BlendFactor::one};
+  counting.pass.draws.push_back(std::move(rest));
 }
 }  // namespace
 
@@ -189,28 +203,21 @@ int maxVolumeLayers(VolumeCounter counter) {
   return counter == VolumeCounter::stencil ? 255 : 160;
 }
 
-Result<VolumePrograms> volumePrograms(gl::ProgramCache& programs) {
-  auto volume = programs.get({"volume/volume.vert", "volume/volume.frag", {}});
-  if (!volume) return volume.error();
-  auto fullscreen = programs.get({"screen/fullscreen.vert", "volume/volume.frag", {}});
-  if (!fullscreen) return fullscreen.error();
-  return VolumePrograms{*volume, *fullscreen};
-}
-
-Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& view, VolumeCache& cache,
-                                    VolumeCounter counter) {
-  const glm::dvec3 light = frame.light.centerWorld;
+LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeView& view, VolumeCache& cache,
+                          VolumeCounter counter) {
+  const glm::dvec3 light = scene.light.centerWorld;
   const int maxLayers = maxVolumeLayers(counter);
+  const bool wideIndices = scene.capabilities.has(device::Capability::uintIndex);
   LightVolumes result;
   glm::dmat4 clipFromDirection = view.clipFromWorld;
   clipFromDirection[3] = glm::dvec4(0.0);
   result.clipFromDirection = glm::mat4(clipFromDirection);
-  Batcher batcher(planner::lightSpace(frame.light), maxLayers);
+  Batcher batcher(planner::lightSpace(scene.light), maxLayers);
   int uncapped = 0, outOfView = 0;
-  const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
+  const std::span<const scene::PlacedCaster> casters = placedCasters(scene);
   std::vector<bool> drawn(casters.size(), true);
-  for (const DrawItem& item : frame.casters) {
-    if (!item.receives) drawn[placedCasterOf(frame, item)] = false;
+  for (const DrawItem& item : scene.casters) {
+    if (!item.receives) drawn[placedCasterOf(scene, item)] = false;
   }
   for (const scene::PlacedCaster& caster : casters) {
     scene::Bounds bounds;
@@ -220,9 +227,7 @@ Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& v
     draw.depthFail = !missesNearPyramid(view, light, box);
     // The eye looks into the volume of a caster that is not drawn through its cap.
     draw.surface = draw.depthFail || !drawn[caster.object] ? VolumeSurface::capped : VolumeSurface::sides;
-    auto volume = cache.get(frame.context, frame.lightIndex, light, caster, draw.surface, maxLayers);
-    if (!volume) return volume.error();
-    draw.volume = *volume;
+    draw.volume = &cache.get(light, caster, draw.surface, maxLayers, wideIndices);
     draw.mirrored = glm::determinant(glm::dmat3(caster.worldFromObject)) < 0.0;
     draw.clipFromObject = glm::mat4(view.clipFromWorld * caster.worldFromObject);
     draw.scissor = shadowScissor(view, light, box);
@@ -233,54 +238,48 @@ Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& v
     }
     batcher.add(draw, box);
   }
-  cache.endLight(frame.lightIndex);
+  cache.endFrame();
   result.batches = batcher.take();
-  const std::string lightName = "light " + std::to_string(frame.lightIndex);
   if (uncapped > 0) {
-    frame.graph.noteSkipped(lightName + " caps of " + std::to_string(uncapped) + " shadow volumes",
-                            "no line from the light to the camera's near plane meets the caster");
+    plan.notes.push_back({scene.name + " caps of " + std::to_string(uncapped) + " shadow volumes",
+                          "no line from the light to the camera's near plane meets the caster"});
   }
   if (outOfView > 0) {
-    frame.graph.noteSkipped(lightName + ", " + std::to_string(outOfView) + " shadow volumes",
-                            "the caster's shadow lies outside of the camera's view");
+    plan.notes.push_back({scene.name + ", " + std::to_string(outOfView) + " shadow volumes",
+                          "the caster's shadow lies outside of the camera's view"});
   }
   return result;
 }
 
-void drawVolumeReceivers(framegraph::PassContext& context, const VolumePrograms& programs,
-                         const VolumeView& view, std::span<const DrawItem> receivers) {
-  gl::DrawState state;
-  state.depth = {.test = Compare::less, .write = true};
-  state.colorMask.fill(false);
-  context.encoder.useProgram(*programs.volume);
-  for (const DrawItem& item : receivers) {
-    programs.volume->set(context.encoder.context(), "u_clipFromObject",
-                         glm::mat4(view.clipFromWorld * item.worldFromObject));
-    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
-    item.mesh->draw(context.encoder, state, GpuMesh::Streams::positions);
-  }
+PlannedDraw volumeReceivers(PassPlan& plan, const VolumeView& view, std::span<const DrawItem> receivers) {
+  PlannedDraw draw{.program = plan.addProgram({"volume/volume.vert", "volume/volume.frag", {}})};
+  draw.state.depth = {.test = Compare::less, .write = true};
+  draw.state.colorMask.fill(false);
+  draw.what = MeshDraw{.items = receivers,
+                       .clipFromWorld = view.clipFromWorld,
+                       .faces = MeshDraw::Faces::facing,
+                       .eyeWorld = view.eyeWorld,
+                       .nearReach = view.nearReach};
+  return draw;
 }
 
-void countVolumes(framegraph::PassContext& context, const VolumePrograms& programs,
-                  const LightVolumes& volumes, VolumeCounter counter, int channel) {
-  gl::Encoder& encoder = context.encoder;
+void addVolumeCounts(PassPlan& plan, PlannedPass& pass, const LightVolumes& volumes, VolumeCounter counter,
+                     int channel) {
+  const Counting counting{plan, pass, volumes.clipFromDirection, channel};
   for (std::size_t i = 0; i < volumes.batches.size(); ++i) {
     const VolumeBatch& batch = volumes.batches[i];
-    encoder.useProgram(*programs.volume);
-    programs.volume->set(encoder.context(), "u_clipFromDirection", volumes.clipFromDirection);
     for (const VolumeDraw& draw : batch.draws) {
-      programs.volume->set(encoder.context(), "u_clipFromObject", draw.clipFromObject);
       if (counter == VolumeCounter::stencil) {
-        drawStencil(encoder, draw);
+        addStencil(counting, draw);
       } else {
-        drawBlended(encoder, *programs.volume, draw, channel);
+        addBlended(counting, draw);
       }
     }
     if (counter == VolumeCounter::stencil) {
-      resolveStencil(encoder, programs, batch.scissor, channel);
+      addStencilResolve(counting, batch.scissor);
     } else if (i + 1 < volumes.batches.size()) {
       // Also what earlier batches left outside of this one's scissor is one level already.
-      collapseCounts(encoder, programs, batch.scissor, channel);
+      addCollapse(counting, batch.scissor);
     }
   }
 }

@@ -5,10 +5,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
+#include <span>
 #include <vector>
 
-#include "framegraph/executor.hpp"
 #include "techniques/shadow_volume/volume_cache.hpp"
 #include "techniques/shadow_volume/volume_view.hpp"
 
@@ -22,14 +21,7 @@ enum class VolumeCounter {
 /// a channel, which saturates, room is left for what one draw adds before the next subtracts it.
 int maxVolumeLayers(VolumeCounter counter);
 
-struct VolumePrograms {
-  gl::Program* volume = nullptr;      ///< receivers and volumes
-  gl::Program* fullscreen = nullptr;  ///< one value on every pixel
-};
-/// Errors: shaderFailed.
-Result<VolumePrograms> volumePrograms(gl::ProgramCache& programs);
-
-/// How one caster of one light is counted. Pointers last until the frame ends.
+/// How one caster of one light is counted. Pointers last while the light is planned.
 struct VolumeDraw {
   const CasterVolume* volume = nullptr;
   std::uint32_t firstChunk = 0, lastChunk = 0;
@@ -37,31 +29,30 @@ struct VolumeDraw {
   bool depthFail = false;  ///< counts what lies behind the receiver, else what lies in front
   bool mirrored = false;   ///< its triangles turn round
   glm::mat4 clipFromObject{1.0f};
-  std::optional<gl::Rect> scissor;
+  std::optional<Rect> scissor;
 };
 /// Draws whose layers fit a counter together.
 struct VolumeBatch {
   std::vector<VolumeDraw> draws;
-  std::optional<gl::Rect> scissor;  ///< of them all
+  std::optional<Rect> scissor;  ///< of them all
 };
 struct LightVolumes {
   std::vector<VolumeBatch> batches;
   glm::mat4 clipFromDirection{1.0f};
 };
 
-/// Extracts, uploads and sorts what the light's casters need; notes in the graph which casters need no caps
-/// and which are out of view. Errors: outOfMemory.
-Result<LightVolumes> prepareVolumes(const LightFrame& frame, const VolumeView& view, VolumeCache& cache,
-                                    VolumeCounter counter);
+/// Extracts and sorts what the light's casters need; notes in the plan which casters need no caps and which
+/// are out of view.
+LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeView& view, VolumeCache& cache,
+                          VolumeCounter counter);
 
-/// The receivers' depths as volumes meet them: draw into a cleared depth buffer, then count.
-void drawVolumeReceivers(framegraph::PassContext& context, const VolumePrograms& programs,
-                         const VolumeView& view, std::span<const DrawItem> receivers);
+/// The receivers' depths as volumes meet them: into a cleared depth buffer, before counting.
+PlannedDraw volumeReceivers(PassPlan& plan, const VolumeView& view, std::span<const DrawItem> receivers);
 
 /// Counts into the pass's stencil, zero before and after, and writes black to `channel` (0-3) of its colour
 /// where the light's centre is hidden. Or, by blending, counts in that channel, zero before: afterwards it is
 /// zero exactly where the centre is seen.
-void countVolumes(framegraph::PassContext& context, const VolumePrograms& programs,
-                  const LightVolumes& volumes, VolumeCounter counter, int channel);
+void addVolumeCounts(PassPlan& plan, PlannedPass& pass, const LightVolumes& volumes, VolumeCounter counter,
+                     int channel);
 
 }  // namespace halfshadow::techniques

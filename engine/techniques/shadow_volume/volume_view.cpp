@@ -99,8 +99,8 @@ bool missesNearPyramid(const VolumeView& view, const glm::dvec3& lightWorld, con
   return false;
 }
 
-std::optional<gl::Rect> shadowScissor(const VolumeView& view, const glm::dvec3& lightWorld,
-                                      const BoxCorners& boxWorld) {
+std::optional<Rect> shadowScissor(const VolumeView& view, const glm::dvec3& lightWorld,
+                                  const BoxCorners& boxWorld) {
   // The shadow lies in the hull of the corners and their directions from the light. Points of its part in
   // front of the near plane are bounded by the hull's vertices there and where its edges cut the plane; pairs
   // that are no edges cut it inside of the hull.
@@ -134,10 +134,10 @@ std::optional<gl::Rect> shadowScissor(const VolumeView& view, const glm::dvec3& 
   const glm::dvec2 size(view.width, view.height);
   const glm::dvec2 from = glm::clamp(glm::floor((low * 0.5 + 0.5) * size) - 1.0, glm::dvec2(0.0), size);
   const glm::dvec2 to = glm::clamp(glm::ceil((high * 0.5 + 0.5) * size) + 1.0, glm::dvec2(0.0), size);
-  if (!(from.x < to.x && from.y < to.y)) return gl::Rect{};
+  if (!(from.x < to.x && from.y < to.y)) return Rect{};
   if (from == glm::dvec2(0.0) && to == size) return std::nullopt;
-  return gl::Rect{static_cast<int>(from.x), static_cast<int>(from.y), static_cast<int>(to.x - from.x),
-                  static_cast<int>(to.y - from.y)};
+  return Rect{static_cast<int>(from.x), static_cast<int>(from.y), static_cast<int>(to.x - from.x),
+              static_cast<int>(to.y - from.y)};
 }
 
 }  // namespace halfshadow::techniques

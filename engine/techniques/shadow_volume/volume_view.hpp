@@ -8,8 +8,8 @@
 #include <glm/glm.hpp>
 #include <optional>
 
-#include "gl/encoder.hpp"
-#include "techniques/execution/light_frame.hpp"
+#include "base/rect.hpp"
+#include "techniques/core/technique.hpp"
 
 namespace halfshadow::techniques {
 
@@ -37,7 +37,7 @@ bool missesNearPyramid(const VolumeView& view, const glm::dvec3& lightWorld, con
 
 /// Pixels that a shadow of the box can cover: empty optional where it may fill the view, a rectangle of no
 /// size where it misses the view. Conservative by a pixel.
-std::optional<gl::Rect> shadowScissor(const VolumeView& view, const glm::dvec3& lightWorld,
-                                      const BoxCorners& boxWorld);
+std::optional<Rect> shadowScissor(const VolumeView& view, const glm::dvec3& lightWorld,
+                                  const BoxCorners& boxWorld);
 
 }  // namespace halfshadow::techniques

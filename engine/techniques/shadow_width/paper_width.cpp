@@ -77,7 +77,7 @@ framegraph::ResourceId planCpuSteps(const WidthPasses& passes, const std::vector
                    .writes = {{.resource = target}},
                    .contentKey = passes.contentKey};
   pass.draws.push_back(
-      {.program = {"screen/fullscreen.vert", "map/pyramid_copy.frag", {}},
+      {.program = passes.plan.addProgram({"screen/fullscreen.vert", "map/pyramid_copy.frag", {}}),
        .what = ReadBackDraw{.image = passes.occlusion,
                             .width = passes.side,
                             .height = passes.side,

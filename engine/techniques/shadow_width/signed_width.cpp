@@ -100,7 +100,7 @@ void addStep(const LightScene& scene, PassPlan& plan, const LightDepth& depth, c
   PlannedPass pass{.name = scene.name + " " + step.name, .contentKey = step.contentKey};
   if (step.strideTexels > 0) pass.name += " " + std::to_string(step.strideTexels);
   pass.writes = {{.resource = step.target, .initial = framegraph::InitialContent::dontCare}};
-  PlannedDraw draw{.program = {"screen/fullscreen.vert", step.file, std::move(step.defines)},
+  PlannedDraw draw{.program = plan.addProgram({"screen/fullscreen.vert", step.file, std::move(step.defines)}),
                    .textures = std::move(step.sources)};
   const float mapSize = static_cast<float>(depth.space.mapSize);
   draw.uniforms.set("u_sourceSize", glm::vec4(mapSize, 1.0f / mapSize, 0, 0));
@@ -161,7 +161,7 @@ static WidthBoxes planWidthBoxes(const LightScene& scene, PassPlan& plan, const 
     const float between =
         static_cast<float>((level % 2 == 0 ? -1.0 : 1.0) * std::exp2(static_cast<double>(level) - 1.0));
     PlannedDraw draw{
-        .program = {"screen/fullscreen.vert", "width/width_tile.frag", {}},
+        .program = plan.addProgram({"screen/fullscreen.vert", "width/width_tile.frag", {}}),
         .textures = {{.sampler = "u_smallerBoxes", .resource = levels[level]},
                      {.sampler = "u_largerBoxes", .resource = levels[level + 1]}},
         .viewport = Rect{(tile % 2) * map.width, (tile / 2) * map.height, map.width, map.height}};

@@ -5,10 +5,10 @@
 namespace halfshadow::techniques {
 
 void addFilterPass(PassPlan& plan, FilterPass filter) {
-  PlannedDraw draw{
-      .program = {"screen/fullscreen.vert", std::move(filter.fragmentFile), std::move(filter.defines)},
-      .textures = {{.sampler = filter.sampler, .resource = filter.source}},
-      .uniforms = std::move(filter.uniforms)};
+  PlannedDraw draw{.program = plan.addProgram(
+                       {"screen/fullscreen.vert", std::move(filter.fragmentFile), std::move(filter.defines)}),
+                   .textures = {{.sampler = filter.sampler, .resource = filter.source}},
+                   .uniforms = std::move(filter.uniforms)};
   const float size = static_cast<float>(filter.sourceSize);
   draw.uniforms.set("u_sourceSize", glm::vec4(size, 1.0f / size, filter.targetSize, 0));
   PlannedPass pass{.name = std::move(filter.name), .contentKey = filter.contentKey};

@@ -9,9 +9,10 @@ void addLevelPass(PassPlan& plan, std::string name, framegraph::ResourceId targe
   PlannedPass pass{.name = std::move(name), .writes = {{.resource = target}}, .contentKey = contentKey};
   for (const LevelDraw& level : draws) {
     const LevelImage& source = level.source;
-    PlannedDraw draw{.program = {"screen/fullscreen.vert", level.fragmentFile, level.defines},
-                     .textures = {{.sampler = "u_source", .resource = source.image}},
-                     .viewport = level.target};
+    PlannedDraw draw{
+        .program = plan.addProgram({"screen/fullscreen.vert", level.fragmentFile, level.defines}),
+        .textures = {{.sampler = "u_source", .resource = source.image}},
+        .viewport = level.target};
     draw.uniforms.set("u_sourceRect",
                       glm::vec4(source.rect.x, source.rect.y, source.rect.width, level.target.width));
     draw.uniforms.set("u_sourceScale", glm::vec4(1.0 / source.imageWidth, 1.0 / source.imageHeight, 0, 0));

@@ -56,9 +56,10 @@ const char* contentName(MapContent content) {
   return "";
 }
 
-PlannedDraw depthDraw(const MapSpace& space, DepthStorage storage, MapContent content,
+PlannedDraw depthDraw(PassPlan& plan, const MapSpace& space, DepthStorage storage, MapContent content,
                       std::span<const DrawItem> items) {
-  PlannedDraw draw{.program = {"map/light_depth.vert", "map/light_depth.frag", depthDefines(storage)}};
+  PlannedDraw draw{
+      .program = plan.addProgram({"map/light_depth.vert", "map/light_depth.frag", depthDefines(storage)})};
   draw.state.depth = {.test = keepsFarthest(content) ? device::Compare::greater : device::Compare::less,
                       .write = true};
   draw.uniforms.set("u_nearDistance", 1.0f);
@@ -103,13 +104,14 @@ LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPl
                     .height = view.fit.mapSize,
                     .lifetime = kept ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient},
                    depth.storage, keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
-  pass.draws.push_back(depthDraw(depth.space, depth.storage, content, items));
-  if (all) pass.draws.push_back(depthDraw(depth.space, depth.storage, content, scene.shadowlessReceivers));
+  pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, items));
+  if (all)
+    pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, scene.shadowlessReceivers));
   if (!infinite.empty()) {
     MapSpace flat = depth.space;
     for (int column = 0; column < 4; ++column)
       flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
-    pass.draws.push_back(depthDraw(flat, depth.storage, content, infinite));
+    pass.draws.push_back(depthDraw(plan, flat, depth.storage, content, infinite));
     // The ramp repeats at depth 1.
     pass.draws.back().uniforms.set("u_nearDistance", 1e-3f);
   }
