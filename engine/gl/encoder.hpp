@@ -64,6 +64,7 @@ struct DrawState {
   std::array<bool, 4> colorMask{true, true, true, true};
   std::optional<Rect> scissor;             ///< window coordinates of the target
   std::optional<glm::vec2> polygonOffset;  ///< factor, units
+  glm::vec2 depthRange{0.0f, 1.0f};        ///< window depths of clip depths -1 and 1
 };
 
 enum class AttributeType { float32, unorm8, snorm8, unorm16, snorm16 };

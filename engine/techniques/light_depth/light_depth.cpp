@@ -56,10 +56,25 @@ const char* contentName(MapContent content) {
   return "";
 }
 
+/// The part of space before the near distance instead, all of it at depth 0.
+MapSpace beforeNear(const MapSpace& space) {
+  // A millionth of the near distance is nearer than a fit's own units tell apart; the seam overlaps by a
+  // hundredth of the least depth that is kept free of casters.
+  constexpr double kFrom = 1e-6, kTo = 1.0 + 1e-5;
+  // Clip depth over w is a + b / w: -1 at kFrom, 1 at kTo.
+  const double b = -2.0 / (1.0 / kFrom - 1.0 / kTo), a = 1.0 - b / kTo;
+  MapSpace before = space;
+  for (int column = 0; column < 4; ++column)
+    before.mapClipFromWorld[column][2] = a * before.mapClipFromWorld[column][3];
+  before.mapClipFromWorld[3][2] += b;
+  return before;
+}
+
 void drawItems(gl::Encoder& encoder, gl::Program& program, const MapSpace& space, MapContent content,
-               std::span<const DrawItem> items) {
+               std::span<const DrawItem> items, const glm::vec2& depthRange = {0.0f, 1.0f}) {
   const bool farthest = keepsFarthest(content), averted = content == MapContent::castersFarthest;
-  gl::DrawState state{.depth = {.test = farthest ? gl::Compare::greater : gl::Compare::less, .write = true}};
+  gl::DrawState state{.depth = {.test = farthest ? gl::Compare::greater : gl::Compare::less, .write = true},
+                      .depthRange = depthRange};
   for (const DrawItem& item : items) {
     // The map looks along +z of a right-handed space, so windings appear turned round.
     const gl::Cull hidden = hiddenFaces(item, space.originWorld);
@@ -107,22 +122,28 @@ Result<LightDepth> declareLightDepth(const LightFrame& frame, MapContent content
   std::vector<DrawItem> items =
       last ? std::move(receivers.drawn) : std::vector<DrawItem>(frame.casters.begin(), frame.casters.end());
   if (all) items.insert(items.end(), frame.shadowlessReceivers.begin(), frame.shadowlessReceivers.end());
-  pass.execute = [program = *program, ramp, space = depth.space, content, items = std::move(items),
+  // What is farthest is never before the near distance.
+  const bool before = frame.fit.castersBeforeNear && !keepsFarthest(content);
+  pass.execute = [program = *program, ramp, space = depth.space, content, before, items = std::move(items),
                   infinite = std::move(receivers.infinite)](framegraph::PassContext& context) {
     gl::Encoder& encoder = context.encoder;
     encoder.useProgram(*program);
-    program->set(encoder.context(), "u_nearDistance", 1.0f);
+    program->set(encoder.context(), "u_depthOfDistance", glm::vec2(1.0f, 1.0f));
     if (ramp) {
       const gl::TextureBinding binding{program->samplerUnit("u_byteRamp"), ramp};
       encoder.bindTextures({&binding, 1});
     }
     drawItems(encoder, *program, space, content, items);
+    if (before) {
+      program->set(encoder.context(), "u_depthOfDistance", glm::vec2(0.0f));
+      drawItems(encoder, *program, beforeNear(space), content, items, glm::vec2(0.0f));
+    }
     if (infinite.empty()) return;
     MapSpace flat = space;
     for (int column = 0; column < 4; ++column)
       flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
     // The ramp repeats at depth 1.
-    program->set(encoder.context(), "u_nearDistance", 1e-3f);
+    program->set(encoder.context(), "u_depthOfDistance", glm::vec2(1.0f, 1e-3f));
     drawItems(encoder, *program, flat, content, infinite);
   };
   frame.graph.addPass(std::move(pass));
