@@ -61,6 +61,10 @@ void addSelfReceiverSearch(const LightFrame& frame, ReceiverShading& shading);
 /// of its plane. Receivers that are not flat, or too dense to look at in each frame, may have casters beyond.
 bool mayHaveCastersBeyond(const LightFrame& frame, const DrawItem& receiver);
 
+/// True when a caster lies wholly behind a flat receiver that casts nothing, as seen from the light's centre:
+/// a view of the casters shows it as if it were before that receiver.
+bool hasCastersBehindReceivers(const LightFrame& frame);
+
 /// A pass that draws one full-screen triangle with `program`, reading one resource as `sampler`.
 struct FilterPass {
   std::string name;
