@@ -57,6 +57,7 @@ struct DrawState {
   std::array<bool, 4> colorMask{true, true, true, true};
   std::optional<Rect> scissor;             ///< window coordinates of the target
   std::optional<glm::vec2> polygonOffset;  ///< factor, units
+  glm::vec2 depthRange{0.0f, 1.0f};        ///< window depths of clip depths -1 and 1
 };
 
 /// Vertex attributes have fixed locations, the same in every program.

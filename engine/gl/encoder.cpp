@@ -90,6 +90,7 @@ struct Encoder::Cache {
   Entry<state::ColorMask> colorMask;
   Entry<state::ScissorBox> scissorBox;
   Entry<state::PolygonOffset> polygonOffset;
+  Entry<state::DepthRange> depthRange;
   Entry<state::StencilFunc<GL_FRONT>> stencilFuncFront;
   Entry<state::StencilFunc<GL_BACK>> stencilFuncBack;
   Entry<state::StencilOps<GL_FRONT>> stencilOpsFront;
@@ -161,7 +162,6 @@ void Encoder::beginFrame() {
   gl.disable(GL_SAMPLE_ALPHA_TO_COVERAGE);
   gl.disable(GL_SAMPLE_COVERAGE);
   gl.frontFace(GL_CCW);
-  gl.depthRangef(0.0f, 1.0f);
   gl.pixelStorei(GL_PACK_ALIGNMENT, 1);
   gl.pixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
@@ -332,6 +332,7 @@ void Encoder::applyState(const DrawState& state) {
     cache.scissorBox.set(gl,
                          {state.scissor->x, state.scissor->y, state.scissor->width, state.scissor->height});
   }
+  cache.depthRange.set(gl, {state.depthRange.x, state.depthRange.y});
   cache.polygonOffsetFill.set(gl, state.polygonOffset.has_value());
   if (state.polygonOffset) cache.polygonOffset.set(gl, {state.polygonOffset->x, state.polygonOffset->y});
 }

@@ -59,15 +59,16 @@ Interval snapTangents(const Interval& tangents, int mapSize, int borderTexels) {
   return {low, low + extent};
 }
 
-// Tangents along one axis (0 = x, 1 = y) of the points' part in front of `nearDistance`. Points are not
-// joined to casters, so a point behind may belong to any of them: wherever a caster is cut, it is cut inside
-// the box of all points.
-Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, double nearDistance) {
+// Tangents along one axis (0 = x, 1 = y): of all points where they all lie before the light, else of their
+// part beyond `nearDistance`. Points are not joined to casters, so a point behind the light may belong to any
+// of them: wherever a caster is cut, it is cut inside the box of all points.
+Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, double nearest,
+                     double nearDistance) {
   Interval tangents, lateral;
   bool cut = false;
   for (const glm::dvec3& point : pointsLight) {
     lateral.include(point[axis]);
-    if (point.z >= nearDistance) {
+    if (nearest > 0.0 || point.z >= nearDistance) {
       tangents.include(point[axis] / point.z);
     } else {
       cut = true;
@@ -154,8 +155,10 @@ LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> cas
   fit.farDistance = depth.farDistance;
   fit.nearestCaster = std::max(nearest, depth.nearDistance);
   fit.farthestCaster = farthest;
+  fit.castersBeforeNear = nearest < depth.nearDistance;
+  fit.castersCrossPlane = !(nearest > 0.0);
   for (int axis = 0; axis < 2; ++axis) {
-    Interval tangents = fitTangents(pointsLight, axis, depth.nearDistance);
+    Interval tangents = fitTangents(pointsLight, axis, nearest, depth.nearDistance);
     if (tangents.low > options.maxTangent || tangents.high < -options.maxTangent) return fit;
     tangents = {std::max(tangents.low, -options.maxTangent), std::min(tangents.high, options.maxTangent)};
     const Interval snapped = snapTangents(tangents, options.mapSize, options.borderTexels);

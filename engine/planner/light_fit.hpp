@@ -27,6 +27,8 @@ struct LightFit {
   /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
   /// long as the scene.
   double nearestCaster = 1.0, farthestCaster = 2.0;
+  bool castersCrossPlane = false;  ///< they reach the light's plane
+  bool castersBeforeNear = false;  ///< parts of casters lie between the light's plane and nearDistance
   /// A caster comes nearer to the light than LightFitOptions::nearShare of its longer side: points of the
   /// light see it from such different directions that a view from the centre cannot stand for them.
   bool casterNearLight = false;

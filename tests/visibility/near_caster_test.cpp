@@ -88,8 +88,32 @@ TEST_F(NearCaster, APostBesideTheLightLeavesOtherShadowsAlone) {
   }
 }
 
+// A chip so near to a small light that the depths of the others leave no room for it in one map: the near
+// distance is a thousandth of the farthest.
+TEST_F(NearCaster, ACasterBeforeTheMapStillCasts) {
+  const glm::dvec3 center(3, 12, 2), toBox = glm::normalize(glm::dvec3(0, 1, 0) - center);
+  const auto tested = [&](double distance) {
+    const double half = 0.05 * distance;
+    auto tested = scene({boxObject(center + distance * toBox, glm::dvec3(half))});
+    tested.lights.front().halfU *= 0.1 * distance;
+    tested.lights.front().halfV *= 0.1 * distance;
+    return tested;
+  };
+  const double hard = judge(tested(0.05), "hard").rmse;
+  for (const double distance : {5e-3, 1e-3, 2e-4}) {
+    const double hardHere = judge(tested(distance), "hard").rmse;
+    std::printf("hard           chip at %.0e: %.4f, at 5e-2 %.4f\n", distance, hardHere, hard);
+    EXPECT_NEAR(hardHere, hard, 0.1 * hard) << distance;
+    for (const char* technique : kSearching) {
+      const double rmse = judge(tested(distance), technique).rmse;
+      std::printf("%-14s chip at %.0e: %.4f\n", technique, distance, rmse);
+      EXPECT_LE(rmse, 0.03) << technique << ", " << distance;
+    }
+  }
+}
+
 TEST_F(NearCaster, CastersBelowAReceiverChangeNothing) {
-  for (const char* technique : kSearching) {
+  for (const char* technique : {"pcss", "pcss-mip", "pcf-quantized", "occlusion-textures", "shadow-width"}) {
     const double alone = judge(scene({}), technique).rmse;
     for (const double top : {-0.02, -0.5, -1.0}) {
       auto below = boxObject({-2, top - 0.5, 0}, {0.5, 0.5, 0.5});

@@ -7,6 +7,7 @@
 
 #include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
+#include "techniques/parts/maps/light_blocks.hpp"
 #include "techniques/shadow_width/attenuation.hpp"
 #include "techniques/shadow_width/paper_width.hpp"
 #include "techniques/shadow_width/signed_width.hpp"
@@ -29,11 +30,11 @@ class ShadowWidth final : public Technique {
         .guarantees =
             "two fetches per receiver whatever the scene, the light's size and the penumbra's width",
         .knownFailures =
-            "casters seen through each other are one silhouette, also those behind a receiver that casters "
-            "before "
-            "it shadow; a caster's shadow on itself is soft only where it leaves the silhouette; lights "
+            "casters seen through each other are one silhouette; a caster's shadow on itself is soft only "
+            "where it leaves the silhouette; lights "
             "whose "
-            "farthest caster is over 8 times as far as the nearest go to sampled"};
+            "farthest caster is over 8 times as far as the nearest, or which see a caster behind a receiver "
+            "that casts nothing, go to sampled"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -108,7 +109,12 @@ class ShadowWidth final : public Technique {
     // A light without size has no widths to get wrong; the paper's widths are its own.
     if (scene.fit().halfSize == glm::dvec2(0.0) || scene.settings.choice("shadow-width.preset") == "paper")
       return std::nullopt;
-    return sampledWhereCastersSpread(scene, kWidestSpread);
+    if (auto spread = sampledWhereCastersSpread(scene, kWidestSpread)) return spread;
+    if (!hasCastersBehindReceivers(scene)) return std::nullopt;
+    return StandIn{
+        "sampled",
+        "caster-behind-receiver: a caster lies behind a receiver that casts nothing, and silhouettes "
+        "seen from the light do not tell that it shadows others only"};
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

@@ -59,7 +59,33 @@ bool reachesBeyond(const DrawItem& caster, const Plane& plane) {
     return isBeyond(glm::dvec3(caster.worldFromObject * glm::dvec4(glm::dvec3(position), 1.0)));
   });
 }
+
+/// Is all of the caster beyond the plane, and behind the receiver as seen from the light's centre?
+bool liesBehind(const DrawItem& caster, const DrawItem& receiver, const Plane& plane,
+                const glm::dvec3& lightWorld) {
+  scene::Bounds image;
+  const double lightHeight = plane.side(lightWorld);
+  for (const glm::dvec3& corner : caster.boundsWorld.corners()) {
+    const double height = plane.side(corner);
+    if (height >= 0.0 || !(lightHeight > 0.0)) return false;
+    image.include(lightWorld + (corner - lightWorld) * (lightHeight / (lightHeight - height)));
+  }
+  const scene::Bounds& bounds = receiver.boundsWorld;
+  const double slack = kRounding * largestCoordinate(glm::max(glm::abs(bounds.low), glm::abs(bounds.high)));
+  return glm::all(glm::lessThanEqual(image.low, bounds.high + slack)) &&
+         glm::all(glm::lessThanEqual(bounds.low, image.high + slack));
+}
 }  // namespace
+
+bool hasCastersBehindReceivers(const LightScene& scene) {
+  return std::ranges::any_of(scene.receivers, [&](const DrawItem& receiver) {
+    if (receiver.casts || receiver.sourceMesh == nullptr) return false;
+    const Plane plane = planeOf(receiver, scene.light.centerWorld);
+    return plane.normal != glm::dvec3(0.0) && std::ranges::any_of(scene.casters, [&](const DrawItem& caster) {
+             return liesBehind(caster, receiver, plane, scene.light.centerWorld);
+           });
+  });
+}
 
 bool mayHaveCastersBeyond(const LightScene& scene, const DrawItem& receiver) {
   if (receiver.sourceMesh == nullptr) return true;

@@ -54,4 +54,8 @@ void addSelfReceiverSearch(const LightScene& scene, ReceiverShading& shading);
 /// of its plane. Receivers that are not flat, or too dense to look at in each frame, may have casters beyond.
 bool mayHaveCastersBeyond(const LightScene& scene, const DrawItem& receiver);
 
+/// True when a caster lies wholly behind a flat receiver that casts nothing, as seen from the light's centre:
+/// a view of the casters shows it as if it were before that receiver.
+bool hasCastersBehindReceivers(const LightScene& scene);
+
 }  // namespace halfshadow::techniques

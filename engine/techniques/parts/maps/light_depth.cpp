@@ -56,13 +56,27 @@ const char* contentName(MapContent content) {
   return "";
 }
 
+/// The part of space before the near distance instead, all of it at depth 0.
+MapSpace beforeNear(const MapSpace& space) {
+  // A millionth of the near distance is nearer than a fit's own units tell apart; the seam overlaps by a
+  // hundredth of the least depth that is kept free of casters.
+  constexpr double kFrom = 1e-6, kTo = 1.0 + 1e-5;
+  // Clip depth over w is a + b / w: -1 at kFrom, 1 at kTo.
+  const double b = -2.0 / (1.0 / kFrom - 1.0 / kTo), a = 1.0 - b / kTo;
+  MapSpace before = space;
+  for (int column = 0; column < 4; ++column)
+    before.mapClipFromWorld[column][2] = a * before.mapClipFromWorld[column][3];
+  before.mapClipFromWorld[3][2] += b;
+  return before;
+}
+
 PlannedDraw depthDraw(PassPlan& plan, const MapSpace& space, DepthStorage storage, MapContent content,
                       std::span<const DrawItem> items) {
   PlannedDraw draw{
       .program = plan.addProgram({"map/light_depth.vert", "map/light_depth.frag", depthDefines(storage)})};
   draw.state.depth = {.test = keepsFarthest(content) ? device::Compare::greater : device::Compare::less,
                       .write = true};
-  draw.uniforms.set("u_nearDistance", 1.0f);
+  draw.uniforms.set("u_depthOfDistance", glm::vec2(1.0f, 1.0f));
   draw.what = MeshDraw{
       .items = items,
       .clipFromWorld = space.mapClipFromWorld,
@@ -104,16 +118,27 @@ LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPl
                     .height = view.fit.mapSize,
                     .lifetime = kept ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient},
                    depth.storage, keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
-  pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, items));
-  if (all)
-    pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, scene.shadowlessReceivers));
+  const std::span<const DrawItem> others = all ? scene.shadowlessReceivers : std::span<const DrawItem>();
+  for (const std::span<const DrawItem> drawn : {items, others}) {
+    if (!drawn.empty()) pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, drawn));
+  }
+  // What is farthest is never before the near distance.
+  if (view.fit.castersBeforeNear && !keepsFarthest(content)) {
+    for (const std::span<const DrawItem> drawn : {items, others}) {
+      if (drawn.empty()) continue;
+      PlannedDraw& draw =
+          pass.draws.emplace_back(depthDraw(plan, beforeNear(depth.space), depth.storage, content, drawn));
+      draw.uniforms.set("u_depthOfDistance", glm::vec2(0.0f));
+      draw.state.depthRange = glm::vec2(0.0f);
+    }
+  }
   if (!infinite.empty()) {
     MapSpace flat = depth.space;
     for (int column = 0; column < 4; ++column)
       flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
     pass.draws.push_back(depthDraw(plan, flat, depth.storage, content, infinite));
     // The ramp repeats at depth 1.
-    pass.draws.back().uniforms.set("u_nearDistance", 1e-3f);
+    pass.draws.back().uniforms.set("u_depthOfDistance", glm::vec2(1.0f, 1e-3f));
   }
   if (depth.storage == DepthStorage::packed16) {
     const TextureRead ramp{.sampler = "u_byteRamp", .own = addByteRamp(plan)};
