@@ -76,11 +76,13 @@ TEST_F(WorldScenes, NoWidthOfAGroundAndNoFarCasterMovesAContact) {
       EXPECT_LE(differingPixels(renderer().render(configuration).visibility(), expected), 10)
           << configuration.text() << ", ground " << half;
     }
-    scene::SceneDescription withFar = small;
-    withFar.objects.push_back(boxObject({1000.0, 0.2, 0.0}, {1.0, 1.0, 1.0}));
-    renderer().load(withFar);
-    EXPECT_LE(differingPixels(renderer().render(configuration).visibility(), expected), 10)
-        << configuration.text() << ", with a far caster";
+    for (const double distance : {1e3, 1e4, 1e6}) {
+      scene::SceneDescription withFar = small;
+      withFar.objects.push_back(boxObject({distance, 0.2, 0.0}, {1.0, 1.0, 1.0}));
+      renderer().load(withFar);
+      EXPECT_LE(differingPixels(renderer().render(configuration).visibility(), expected), 10)
+          << configuration.text() << ", with a caster " << distance << " away";
+    }
   }
 }
 
