@@ -72,7 +72,7 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
-    if (!placed.closed) {
+    if (!placed.closed || placed.enclosesLight) {
       for (const glm::dvec3& corner : caster.mesh->parts()[part.part].bounds.corners()) {
         placed.deepest = std::max(placed.deepest, static_cast<float>(lightFromObject(glm::vec3(corner)).z));
       }

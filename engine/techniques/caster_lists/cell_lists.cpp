@@ -36,15 +36,14 @@ struct BlockCasters {
 class BlockFacets {
  public:
   void clear() { facets_.clear(); }
-  std::span<const std::uint32_t> of(const CasterLoops& caster, const NearSurface& surface,
-                                    const TangentBox& receivers) {
-    const auto [found, isNew] = facets_.try_emplace({caster.object, caster.part});
+  std::span<const std::uint32_t> of(const NearSurface& surface, const TangentBox& receivers) {
+    const auto [found, isNew] = facets_.try_emplace(&surface);
     if (isNew) facetsInReach(surface, receivers, found->second);
     return found->second;
   }
 
  private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facets_;
+  std::map<const NearSurface*, std::vector<std::uint32_t>> facets_;
 };
 
 /// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
@@ -111,6 +110,11 @@ void forEachLayer(const SubLightLoops& loops, const CasterLoops& caster, auto&& 
   for (std::uint32_t l = 0; l < caster.layerCount; ++l) use(loops.layers[caster.firstLayer + l]);
 }
 
+/// No point of the caster has a smaller i.
+float deepestOf(const CasterLoops& caster) {
+  return caster.isRoom ? caster.deepest : std::min(caster.low.z, caster.deepest);
+}
+
 void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
                  const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
   result.full = false;
@@ -125,12 +129,13 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     result.full = result.full || coverage == Coverage::full;
   };
   const auto addNear = [&](const CasterLoops& caster) {
-    BlockCasters::Near near{.caster = &caster,
-                            .surface = &surfaces.of(caster.object, caster.part),
-                            .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
-                                                                          : FacetChoice::asLightSees};
+    BlockCasters::Near near{
+        .caster = &caster,
+        .surface = &surfaces.of(caster.object, caster.part, caster.isRoom ? Solid::around : Solid::within),
+        .choice =
+            caster.object == receiver.ownObject ? FacetChoice::asReceiversSee : FacetChoice::asLightSees};
     if (near.surface->facets.empty()) return false;
-    near.facets = facets.of(caster, *near.surface, receivers);
+    near.facets = facets.of(*near.surface, receivers);
     if (near.facets.empty()) return true;
     if (std::ranges::find(result.near, near.surface, &BlockCasters::Near::surface) != result.near.end())
       near.facets = {};
@@ -139,9 +144,15 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   };
   for (const CasterLoops& caster : loops.casters) {
     around = nullptr;
-    const glm::vec3 low(glm::vec2(caster.low), std::min(caster.low.z, caster.deepest));
+    const glm::vec3 low(glm::vec2(caster.low), deepestOf(caster));
     if (low.z >= receivers.iHigh) {
-      forEachLayer(loops, caster, add);
+      // Behind all of a room is outside of it.
+      result.full = result.full || caster.isRoom;
+      if (!caster.isRoom) forEachLayer(loops, caster, add);
+      continue;
+    }
+    if (caster.isRoom) {
+      addNear(caster);
       continue;
     }
     if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
@@ -233,7 +244,9 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
       const auto& [caster, surface, choice, facets] = block[s].near[c];
-      if (std::min(caster->low.z, caster->deepest) >= receivers.iHigh) {
+      if (deepestOf(*caster) >= receivers.iHigh) {
+        full = full || caster->isRoom;
+        if (full) break;
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
           if (!full) add(simplify(layer, loops.light, receivers, simplified));
         });
@@ -317,7 +330,7 @@ TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double fa
   TangentRect rect;
   for (const SubLightLoops& subLight : subLights) {
     for (const CasterLoops& caster : subLight.casters) {
-      if (caster.enclosesLight) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
+      if (caster.enclosesLight || caster.isRoom) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
       for (const glm::vec3& point : caster.points) {
         // A receiver behind E is shadowed from light points up to 1 away: its tangent differs from E's by at
         // most the light's half side as it grows from E's height to the receiver's.

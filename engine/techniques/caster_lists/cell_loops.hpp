@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "scene/light_silhouettes.hpp"
+#include "techniques/caster_lists/light_rooms.hpp"
 #include "techniques/caster_lists/near_surface.hpp"
 #include "techniques/caster_lists/tangent_space.hpp"
 
@@ -24,8 +25,9 @@ struct CasterLoops {
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
   glm::vec3 low{1e30f}, high{-1e30f};
-  float deepest = 0.0f;  ///< no point of its part has a smaller i; the loops of a bowl do not tell
-  bool enclosesLight = false;
+  float deepest = 0.0f;        ///< no point of its part has a smaller i; the loops of a bowl do not tell
+  bool enclosesLight = false;  ///< and no receiver that is seen stands inside it
+  bool isRoom = false;         ///< it encloses the light, and receivers stand inside it: only faces tell
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
@@ -44,9 +46,10 @@ struct SubLightLoops {
   std::vector<CasterLoops> layers;
 };
 /// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
+/// `rooms`: parts that are rooms where the light is inside them.
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
-                      const ListSpace& space);
+                      const ListSpace& space, std::span<const RoomPart> rooms = {});
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
 /// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.

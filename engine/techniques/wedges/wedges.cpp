@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
+#include "techniques/caster_lists/light_rooms.hpp"
 #include "techniques/caster_lists/own_receivers.hpp"
 #include "techniques/wedge_receivers/wedge_route.hpp"
 
@@ -75,6 +76,7 @@ class AdditiveWedges final : public Technique {
             "up"};
     return info;
   }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForRooms(frame); }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges.route"), own_.setting()};
   }
@@ -105,6 +107,7 @@ class ProbabilisticWedges final : public Technique {
             "within a quadrant add up"};
     return info;
   }
+  std::optional<StandIn> standIn(const LightFrame& frame) const override { return standInForRooms(frame); }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges-probabilistic.route"), own_.setting()};
   }
