@@ -22,6 +22,7 @@ struct BlockCasters {
     const NearSurface* surface = nullptr;
     FacetChoice choice = FacetChoice::asLightSees;
     std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
+    const NearSurface* around = nullptr;    ///< some receivers of the block may stand inside it
   };
   struct Partial {
     CasterLoops loops;
@@ -128,12 +129,12 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
     result.full = result.full || coverage == Coverage::full;
   };
-  const auto addNear = [&](const CasterLoops& caster) {
-    BlockCasters::Near near{
-        .caster = &caster,
-        .surface = &surfaces.of(caster.object, caster.part, caster.isRoom ? Solid::around : Solid::within),
-        .choice =
-            caster.object == receiver.ownObject ? FacetChoice::asReceiversSee : FacetChoice::asLightSees};
+  const auto addNear = [&](const CasterLoops& caster, Solid solid) {
+    BlockCasters::Near near{.caster = &caster,
+                            .surface = &surfaces.of(caster.object, caster.part, solid),
+                            .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
+                                                                          : FacetChoice::asLightSees,
+                            .around = around};
     if (near.surface->facets.empty()) return false;
     near.facets = facets.of(*near.surface, receivers);
     if (near.facets.empty()) return true;
@@ -152,7 +153,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
       continue;
     }
     if (caster.isRoom) {
-      addNear(caster);
+      addNear(caster, Solid::around);
       continue;
     }
     if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
@@ -163,9 +164,11 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
         around = &surface;
       }
     }
+    // From within, and from its faces, the outline of a convex caster goes half round a receiver and more.
+    if (around != nullptr && caster.seenInside && addNear(caster, Solid::faces)) continue;
     const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(low, caster.high) != 0) continue;
-    if (!among || !addNear(caster)) add(caster);
+    if (!among || !addNear(caster, Solid::within)) add(caster);
   }
   if (result.full) {
     result.partial.clear();
@@ -243,8 +246,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
-      const auto& [caster, surface, choice, facets] = block[s].near[c];
-      if (deepestOf(*caster) >= receivers.iHigh) {
+      const auto& [caster, surface, choice, facets, around] = block[s].near[c];
+      if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
+        full = true;
+      } else if (deepestOf(*caster) >= receivers.iHigh) {
         full = full || caster->isRoom;
         if (full) break;
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {

@@ -233,7 +233,7 @@ void CasterLoops::clear() {
   loops.clear();
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
-  enclosesLight = isRoom = false;
+  enclosesLight = isRoom = seenInside = false;
   deepest = 0.0f;
   firstLayer = layerCount = 0;
   object = part = 0;
@@ -251,7 +251,7 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
-                      const ListSpace& space, std::span<const RoomPart> rooms) {
+                      const ListSpace& space, std::span<const RoomPart> seenInside) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
   std::uint32_t layersLeft = 0;
@@ -273,10 +273,11 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     caster.object = source.object;
     caster.part = source.part;
     caster.convex = casters[source.object].mesh->parts()[source.part].convex;
-    if (source.enclosesLight &&
-        std::ranges::find(rooms, RoomPart{source.object, source.part}) != rooms.end()) {
-      caster.isRoom = true;
-      caster.enclosesLight = caster.convex = false;
+    if (std::ranges::find(seenInside, RoomPart{source.object, source.part}) != seenInside.end()) {
+      caster.isRoom = source.enclosesLight;
+      caster.seenInside = !source.enclosesLight;
+      caster.convex = caster.convex && !caster.isRoom;
+      caster.enclosesLight = false;
     }
   }
   return result;

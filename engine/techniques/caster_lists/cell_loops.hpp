@@ -28,6 +28,7 @@ struct CasterLoops {
   float deepest = 0.0f;        ///< no point of its part has a smaller i; the loops of a bowl do not tell
   bool enclosesLight = false;  ///< and no receiver that is seen stands inside it
   bool isRoom = false;         ///< it encloses the light, and receivers stand inside it: only faces tell
+  bool seenInside = false;     ///< it does not, but receivers may stand inside it all the same
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
@@ -46,10 +47,10 @@ struct SubLightLoops {
   std::vector<CasterLoops> layers;
 };
 /// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
-/// `rooms`: parts that are rooms where the light is inside them.
+/// `seenInside`: parts inside which receivers may be seen.
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
-                      const ListSpace& space, std::span<const RoomPart> rooms = {});
+                      const ListSpace& space, std::span<const RoomPart> seenInside = {});
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
 /// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.

@@ -56,9 +56,9 @@ ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> cast
 }  // namespace
 
 bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLights) {
-  const std::vector<RoomPart> rooms = roomsAroundLight(frame);
+  const std::vector<RoomPart> seenInside = partsSeenInside(frame);
   std::uint64_t key = planner::combineKeys(frame.contentKey, frame.settings.revision());
-  for (const RoomPart& room : rooms)
+  for (const RoomPart& room : seenInside)
     key = planner::combineKeys(key, (std::uint64_t{room.object} << 32) + room.part + 1);
   if (key_ == key) return false;
   key_ = key;
@@ -87,7 +87,7 @@ bool LightLoops::update(const LightFrame& frame, std::span<const SubLight> subLi
     const SubLight& subLight = subLights[i];
     subLights_.push_back(loopsOf(silhouettes_[i].update(shown, plane, subLight.center.x, subLight.center.y,
                                                         minHeight_, scene::LayerSplit::alongside),
-                                 casters, subLight, space_, rooms));
+                                 casters, subLight, space_, seenInside));
   }
   return true;
 }

@@ -8,11 +8,6 @@
 
 namespace halfshadow::techniques {
 namespace {
-bool meetsBox(const scene::Bounds& box, const scene::Bounds& other) {
-  return glm::all(glm::lessThanEqual(box.low, other.high)) &&
-         glm::all(glm::lessThanEqual(other.low, box.high));
-}
-
 /// Seen from outside, it hides what is inside.
 bool isDrawn(const LightFrame& frame, std::uint32_t placed) {
   for (std::size_t i = 0; i < frame.casters.size(); ++i) {
@@ -22,33 +17,26 @@ bool isDrawn(const LightFrame& frame, std::uint32_t placed) {
 }
 }  // namespace
 
-std::vector<RoomPart> roomsAroundLight(const LightFrame& frame) {
-  std::vector<RoomPart> rooms;
+std::vector<RoomPart> partsSeenInside(const LightFrame& frame) {
+  std::vector<RoomPart> seen;
   const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
   for (std::uint32_t object = 0; object < casters.size(); ++object) {
     const scene::PlacedCaster& caster = casters[object];
-    const glm::dmat4 objectFromWorld = glm::inverse(caster.worldFromObject);
-    scene::Bounds light;
-    for (int k = 0; k < 4; ++k) {
-      const glm::dvec3 corner = frame.light.centerWorld + (k & 1 ? 1.0 : -1.0) * frame.light.halfU +
-                                (k & 2 ? 1.0 : -1.0) * frame.light.halfV;
-      light.include(glm::dvec3(objectFromWorld * glm::dvec4(corner, 1.0)));
-    }
     const glm::dmat4 clipFromObject = frame.view.clipFromWorld * caster.worldFromObject;
     for (std::uint32_t part = 0; part < caster.mesh->parts().size(); ++part) {
       const scene::CasterPart& own = caster.mesh->parts()[part];
-      if (!own.closed || !meetsBox(own.bounds, light)) continue;
+      if (!own.closed) continue;
       // Gaps that were filled are filled for the light, not for the eye.
       const bool hidesInside = own.filledGaps == 0 && isDrawn(frame, object) &&
                                sideSeenFrom(*caster.mesh, own, clipFromObject) == scene::PartSide::outside;
-      if (!hidesInside) rooms.push_back({object, part});
+      if (!hidesInside) seen.push_back({object, part});
     }
   }
-  return rooms;
+  return seen;
 }
 
 bool lightIsInRoom(const LightFrame& frame) {
-  return std::ranges::any_of(roomsAroundLight(frame), [&](const RoomPart& room) {
+  return std::ranges::any_of(partsSeenInside(frame), [&](const RoomPart& room) {
     const scene::PlacedCaster& caster = placedCasters(frame)[room.object];
     const glm::dvec3 center(glm::inverse(caster.worldFromObject) * glm::dvec4(frame.light.centerWorld, 1.0));
     return scene::enclosesPoint(*caster.mesh, caster.mesh->parts()[room.part], center);

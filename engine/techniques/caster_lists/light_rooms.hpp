@@ -14,16 +14,16 @@
 
 namespace halfshadow::techniques {
 
+/// A closed part of a caster.
 struct RoomPart {
   std::uint32_t object = 0;  ///< in placedCasters()
   std::uint32_t part = 0;
   bool operator==(const RoomPart&) const = default;
 };
 
-/// Closed parts whose box holds a point of the light, and inside which something may be seen: not those that
-/// are drawn and have the near plane of the view outside. Whether the light itself is inside each is another
-/// question.
-std::vector<RoomPart> roomsAroundLight(const LightFrame& frame);
+/// Closed parts inside which something may be seen: not those that are drawn and have the near plane of the
+/// view outside.
+std::vector<RoomPart> partsSeenInside(const LightFrame& frame);
 
 /// Whether one of them holds the light's centre: silhouettes do not tell what it hides from what stands
 /// inside.

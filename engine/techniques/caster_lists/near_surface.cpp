@@ -206,7 +206,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   const glm::dmat3 lightFromObject = plane.axes * linear;
   const glm::dvec3 offset = plane.fromWorld(glm::dvec3(caster.worldFromObject[3]));
   // Faces that look towards the light run clockwise in (a, b), unless the object is mirrored.
-  const bool turned = (glm::determinant(linear) > 0.0) == (solid == Solid::within);
+  const bool turned = (glm::determinant(linear) > 0.0) == (solid != Solid::around);
 
   NearSurface surface{.closed = own.closed,
                       .convex = own.convex && solid == Solid::within,

@@ -60,9 +60,12 @@ struct NearSurface {
   bool cut = false;     ///< it reaches through the light's plane
 };
 
-/// A closed part as the solid that it bounds, or around a light inside it as the solid around a room, whose
-/// faces look into it.
-enum class Solid { within, around };
+/// What a closed part stands for.
+enum class Solid {
+  within,  ///< the solid that it bounds
+  faces,   ///< the same, never told by its outline, also where it is convex
+  around   ///< with the light inside: the solid around a room, whose faces look into it
+};
 
 /// What reaches through the plane h = minHeight is cut there.
 NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
