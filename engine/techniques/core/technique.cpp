@@ -13,6 +13,13 @@ gl::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double ne
   return item.mirrored ? gl::Cull::front : gl::Cull::back;
 }
 
+glm::dmat4 heightFromWorld(const LightFrame& frame) {
+  glm::dmat4 rows;
+  for (int column = 0; column < 4; ++column)
+    rows[column] = glm::dvec4(frame.fit.lightFromWorld[column].z / frame.fit.nearDistance);
+  return rows;
+}
+
 std::span<const scene::PlacedCaster> placedCasters(const LightFrame& frame) {
   if (frame.groups.holds(frame.contentKey)) return frame.groups.placed();
   std::vector<scene::SceneCaster> casters;

@@ -104,6 +104,10 @@ struct LightFrame {
   FilterSkip preferredSkip = FilterSkip::stencil;  ///< setting filter_skip: the device profile's choice
 };
 
+/// For ReceiverShading::mapFromWorld of what tells nothing but the height over the light's plane (z), in
+/// every component.
+glm::dmat4 heightFromWorld(const LightFrame& frame);
+
 /// The frame's casters as silhouettes are taken of them, those whose borders coincide as one; `object` is the
 /// index in this list. Meshes last until the casters change.
 std::span<const scene::PlacedCaster> placedCasters(const LightFrame& frame);

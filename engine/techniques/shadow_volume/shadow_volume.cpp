@@ -61,9 +61,7 @@ class ShadowVolume final : public Technique {
     shading.fragmentFile = "screen_visibility.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_screen", .resource = target}};
-    for (int column = 0; column < 4; ++column) {
-      shading.mapFromWorld[column] = glm::dvec4(frame.fit.lightFromWorld[column].z / frame.fit.nearDistance);
-    }
+    shading.mapFromWorld = heightFromWorld(frame);
     glm::vec4 channel(0.0f);
     channel[frame.lightIndex] = counter == VolumeCounter::stencil ? 1.0f : -255.0f;
     const float offset = counter == VolumeCounter::stencil ? 0.0f : 1.0f;

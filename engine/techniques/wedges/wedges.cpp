@@ -131,7 +131,7 @@ class ProbabilisticWedges final : public Technique {
         if (Status s = declareMerge(frame, volumes, batch, sums, visibility); !s) return s.error();
       }
     }
-    return own_.addTo(screenShading(visibility, 0.0f), frame);
+    return own_.addTo(screenShading(frame, visibility, 0.0f), frame);
   }
   void contextLost() override {
     routes_.contextLost();
