@@ -22,7 +22,7 @@ constexpr float kLargestScale = 255.0f * 255.0f;
 /// coarser step: what they project to is known to the same share.
 constexpr float kFineReach = 8.0f;
 /// Corners of facets on which receivers stand have fine steps, too, up to so many times the others' range.
-constexpr float kFacetReach = 16.0f;
+constexpr float kFacetReach = 32.0f;
 /// Between steps of t and of i, where vertices are coded with coarser ones.
 constexpr float kUneven = 8.0f;
 
@@ -48,7 +48,8 @@ EncodedLists::Placed placementOf(std::span<const CellRecord> records) {
   }
   // Receivers may stand on the facets of one-sided loops, off by no more than a step; but not where that
   // would make the steps of all others much coarser.
-  const glm::vec3 middle = 0.5f * (fine.low + fine.high), reach = kFacetReach * (fine.high - fine.low);
+  const glm::vec3 middle = 0.5f * (fine.low + fine.high), range = fine.high - fine.low;
+  const glm::vec3 reach(kFacetReach * std::max({range.x, range.y, range.z}));
   for (const CellRecord& record : records | std::views::filter(isVertex)) {
     if (record.oneSided && glm::all(glm::lessThanEqual(glm::abs(record.ti - middle), reach)))
       fine.include(record.ti);
