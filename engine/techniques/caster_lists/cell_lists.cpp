@@ -21,8 +21,8 @@ struct BlockCasters {
     const CasterLoops* caster = nullptr;
     const NearSurface* surface = nullptr;
     FacetChoice choice = FacetChoice::asLightSees;
-    std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
-    const NearSurface* around = nullptr;    ///< some receivers of the block may stand inside it
+    std::vector<std::uint32_t> facets;    ///< none where another entry of the same surface has them
+    const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
   };
   struct Partial {
     CasterLoops loops;
@@ -136,11 +136,16 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
                                                                           : FacetChoice::asLightSees,
                             .around = around};
     if (near.surface->facets.empty()) return false;
-    near.facets = facets.of(*near.surface, receivers);
-    if (near.facets.empty()) return true;
-    if (std::ranges::find(result.near, near.surface, &BlockCasters::Near::surface) != result.near.end())
-      near.facets = {};
-    result.near.push_back(near);
+    const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers);
+    if (all.empty()) return true;
+    // The two sides of a sheet cover the same ground twice: they are two casters among its surfaces, too.
+    const bool sided = !near.surface->closed && near.choice == FacetChoice::asLightSees;
+    const bool known = std::ranges::any_of(result.near, [&](const BlockCasters::Near& other) {
+      return other.surface == near.surface && (!sided || other.caster->turnedAway == caster.turnedAway);
+    });
+    if (!known && sided) near.facets = facetsOfSide(*near.surface, all, loops.light, caster.turnedAway);
+    if (!known && !sided) near.facets.assign(all.begin(), all.end());
+    result.near.push_back(std::move(near));
     return true;
   };
   for (const CasterLoops& caster : loops.casters) {

@@ -237,6 +237,7 @@ void CasterLoops::clear() {
   deepest = 0.0f;
   firstLayer = layerCount = 0;
   object = part = 0;
+  turnedAway = false;
   convex = true;
 }
 
@@ -272,6 +273,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     caster.deepest = static_cast<float>(1.0 / static_cast<double>(source.deepest) - space.originI);
     caster.object = source.object;
     caster.part = source.part;
+    caster.turnedAway = source.turnedAway;
     caster.convex = casters[source.object].mesh->parts()[source.part].convex;
     if (std::ranges::find(seenInside, RoomPart{source.object, source.part}) != seenInside.end()) {
       caster.isRoom = source.enclosesLight;

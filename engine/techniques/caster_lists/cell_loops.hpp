@@ -33,6 +33,7 @@ struct CasterLoops {
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
   std::uint32_t object = 0, part = 0;
+  bool turnedAway = false;  ///< the side of a sheet that looks away from the light
   /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
   bool convex = true;
 

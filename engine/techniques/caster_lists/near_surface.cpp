@@ -307,6 +307,14 @@ const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, So
   return found->second;
 }
 
+std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
+                                        const SubLight& light, bool turnedAway) {
+  std::vector<std::uint32_t> side;
+  std::ranges::copy_if(facets, std::back_inserter(side),
+                       [&](std::uint32_t f) { return sees(surface.facets[f].plane, light) != turnedAway; });
+  return side;
+}
+
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
                    std::vector<std::uint32_t>& result) {
   result.clear();

@@ -107,6 +107,10 @@ struct ReceiverSet {
   std::uint64_t tile = 0;  ///< a number of its own for each set with patches
 };
 
+/// Those of a sheet's facets that look towards the light's centre, or those that look away.
+std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
+                                        const SubLight& light, bool turnedAway);
+
 /// Facets that can cover some of the light for some receiver in the box, or more. Replaces `result`.
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
                    std::vector<std::uint32_t>& result);
