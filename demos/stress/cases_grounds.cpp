@@ -26,6 +26,7 @@ std::vector<Variant> wideGrounds(std::uint64_t) {
   return {{"x10", withGround(baseScene("box-small-light"), 1200, false), "box-small-light"},
           {"x100", withGround(baseScene("box-small-light"), 12000, false), "box-small-light"},
           {"x1000", withGround(baseScene("box-small-light"), 120000, false), "box-small-light"},
+          {"x100000", withGround(baseScene("box-small-light"), 1.2e7, false), "box-small-light"},
           {"figure-x1000", withGround(baseScene("figure"), 120000, false), "figure"}};
 }
 
@@ -53,7 +54,7 @@ std::vector<Variant> coincident(std::uint64_t) {
 
 std::vector<Variant> apart(std::uint64_t) {
   std::vector<Variant> all;
-  for (const double distance : {100.0, 800.0, 1000.0, 30000.0}) {
+  for (const double distance : {100.0, 800.0, 1000.0, 30000.0, 1e6}) {
     SceneDescription scene = withGround(baseScene("apart"), 2.5 * distance, false);
     all.push_back({std::to_string(static_cast<int>(distance)),
                    with(std::move(scene), "far", boxShape({0, 0.2, distance}, {1.0, 0.2, 1.5})), "apart"});
@@ -96,11 +97,11 @@ std::vector<Variant> unshadowed(std::uint64_t seed) {
 std::vector<Case> groundCases() {
   return {
       {"far-caster", "one more caster, far outside the view", Rule::same, farCasters},
-      {"wide-ground", "the ground ten to a thousand times as wide", Rule::same, wideGrounds},
+      {"wide-ground", "the ground ten to a hundred thousand times as wide", Rule::same, wideGrounds},
       {"casting-ground", "the ground casts", Rule::same, castingGrounds},
       {"below", "a caster below the ground", Rule::same, below},
       {"coincident", "two grounds in one plane", Rule::same, coincident},
-      {"apart", "two objects 100 to 30,000 apart on one ground", Rule::own, apart},
+      {"apart", "two objects 100 to 1,000,000 apart on one ground", Rule::own, apart},
       {"unshadowed", "casters that can shadow nothing in view", Rule::lit, unshadowed},
       {"edge-on", "a triangle whose plane holds the light's centre", Rule::own, edgeOn},
   };

@@ -102,7 +102,11 @@ std::vector<Variant> behindLight(std::uint64_t) {
   SceneDescription scene = stage({boxObject("plate", {0, 4.8, 0}, {1.2, 0.05, 1.2}), floorObject(20)},
                                  lightDown({0, 6, 0}, 0.5, 0.5), {0, 6, 12}, {0, 6, -2.4}, 0.7);
   scene = withReceiver(std::move(scene), "wall", boxShape({0, 6, -2.5}, {6, 6, 0.1}));
-  return {{"wall", scene, "box", {}, true}};
+  // The same with the light in a housing, outside of which it is dark below that plane only.
+  SceneDescription housing = baseScene("lamp");
+  housing = with(std::move(housing), "housing", boxShape({0, 2.7, 0}, {0.5, 0.3, 0.4}));
+  housing = withReceiver(std::move(housing), "wall", boxShape({0, 6, -2.5}, {6, 6, 0.1}));
+  return {{"wall", scene, "box", {}, true}, {"housing", housing, "lamp", {}, true}};
 }
 }  // namespace
 

@@ -84,11 +84,50 @@ std::vector<Variant> openBox(std::uint64_t) {
             {0, 0.8, -1}, 1.2);
   return {{"outward", scene, "bars"}, {"inward", flipped(scene, FlipRule::all), "bars"}};
 }
+
+/// A closed room with the outline of an L, from the floor up.
+Shape ell(double height) {
+  const glm::dvec2 outline[] = {{0, 0}, {0, 3}, {-3, 3}, {-3, -3}, {3, -3}, {3, 0}};
+  Shape shape;
+  for (const double y : {0.0, height}) {
+    for (const glm::dvec2& corner : outline) shape.addVertex({corner.x, y, corner.y});
+  }
+  // Every corner sees the first one, at which the L bends.
+  for (std::uint32_t k = 1; k + 1 < 6; ++k) {
+    shape.addTriangle(0, k + 1, k);
+    shape.addTriangle(6, 6 + k, 6 + k + 1);
+  }
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const std::uint32_t next = (k + 1) % 6;
+    shape.addTriangle(k, next, 6 + next);
+    shape.addTriangle(k, 6 + next, 6 + k);
+  }
+  return shape;
+}
+
+/// Light and camera inside a closed room; of the L the light sees all or turns a corner. The floor of the
+/// shed goes on outside.
+std::vector<Variant> lampRooms(std::uint64_t) {
+  const auto room = [](const Shape& walls, const glm::dvec3& lamp, const glm::dvec3& table) {
+    return stage({scenes::casterOf("walls", walls), boxObject("table", table, {0.4, 0.4, 0.4})},
+                 lightDown(lamp, 0.3, 0.3), {-2.4, 1.8, 2.4}, {-1.0, 0.5, -2.0}, 1.0);
+  };
+  const SceneDescription bend = room(ell(3), {2.0, 2.6, -1.5}, {-1.5, 0.6, -1.0});
+  SceneDescription shed = stage({scenes::casterOf("walls", boxShape({0, 1.5, 0}, {1.5, 1.6, 1.5})),
+                                 boxObject("table", {0.3, 0.5, 0.2}, {0.3, 0.3, 0.3}), floorObject(40)},
+                                lightDown({0, 2.6, 0}, 0.3, 0.3), {-1.2, 1.8, -1.2}, {0.5, 0.5, 0.5}, 1.0);
+  return {{"ell", room(ell(3), {-1.5, 2.6, -1.0}, {-1.5, 0.6, -1.0}), "bars"},
+          {"bend", bend, "bars"},
+          {"bend-inward", flipped(bend, FlipRule::all), "bars"},
+          {"shed", shed, "bars"},
+          {"shed-inward", flipped(shed, FlipRule::all), "bars"}};
+}
 }  // namespace
 
 std::vector<Case> roomCases() {
   return {
       {"inside", "the camera inside a closed house, tunnel or jar, the light outside", Rule::dark, inside},
+      {"lamp-room", "light and camera inside a closed room", Rule::own, lampRooms},
       {"plane-room", "a room of separate planes, open in front", Rule::own, planeRooms},
       {"open-box", "the camera in a box without its front", Rule::own, openBox},
   };

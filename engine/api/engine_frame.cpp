@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "api/draw_items.hpp"
 #include "api/engine_state.hpp"
 #include "api/receiver_reach.hpp"
 #include "base/keys.hpp"
@@ -36,21 +37,6 @@ Status checkTarget(const TargetDesc& target, const device::Limits& limits) {
                                                  " is above this device's limit of " + std::to_string(limit)};
   }
   return {};
-}
-
-techniques::DrawItem drawItem(const EngineObject& object) {
-  return {.mesh = &object.gpu,
-          .casts = object.casts,
-          .receives = object.receives,
-          .worldFromObject = object.worldFromObject,
-          .baseColor = object.baseColor,
-          .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
-          .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
-          .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
-          .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0,
-          .sourceMesh = &object.mesh,
-          .geometry = &object.geometry,
-          .revision = object.revision};
 }
 
 /// What the pass that evaluates visibility writes: with several lights, shading reads it from the screen.
@@ -119,7 +105,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   FrameLight& target = frame.lights[index];
   LightCache& cache = lightCaches[index];
   const int mapSize = settings->integer("map_size");
-  for (const std::uint32_t i : plan.casters) target.casters.push_back(drawItem(*sceneObjects[i]));
+  for (const std::uint32_t i : plan.casters) target.casters.push_back(api::drawItem(*sceneObjects[i]));
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
     for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
@@ -143,7 +129,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     if (!object->receives) continue;
     // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
     if (!isCaster[i]) {
-      target.shadowlessReceivers.push_back(drawItem(*object));
+      target.shadowlessReceivers.push_back(api::drawItem(*object));
       target.shadowlessReceivers.back().casts = false;
     }
     receivers.push_back({&object->mesh, object->worldFromObject,
@@ -327,8 +313,9 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
     for (const std::uint32_t i : light.casters) castsForSome[i] = true;
   }
   for (const std::uint32_t i : framePlan.receivers) {
-    frame->receivers.push_back(drawItem(*sceneObjects[i]));
-    frame->receivers.back().casts = castsForSome[i];
+    auto item = api::receiverItem(*context, *sceneObjects[i], castsForSome[i], frame->view, camera);
+    if (!item) return item.error();
+    frame->receivers.push_back(*item);
   }
   frame->lights.resize(lights.size());
   lightCaches.resize(lights.size());

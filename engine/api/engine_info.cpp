@@ -10,7 +10,8 @@ namespace halfshadow {
 std::uint64_t Engine::State::memoryBytes() const {
   std::uint64_t bytes = executor->memoryBytes();
   for (const auto& [id, object] : objects) {
-    bytes += object.gpu.memoryBytes() + (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
+    bytes += object.gpu.memoryBytes() + object.cutReceiver.gpu.memoryBytes() +
+             (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
   }
   return bytes;
 }

@@ -26,6 +26,14 @@
 
 namespace halfshadow {
 
+/// A receiver of which a camera sees so little that only that is drawn (see scene::cutToView).
+struct CutReceiver {
+  std::uint64_t key = 0;  ///< of the object and the view; 0 = not asked for yet
+  bool needed = false;
+  scene::TriangleMesh mesh;
+  techniques::GpuMesh gpu;
+};
+
 struct EngineObject {
   scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
   scene::CasterGeometry geometry;
@@ -43,6 +51,7 @@ struct EngineObject {
   gl::Texture baseColorTexture;
   std::uint64_t revision = 0;
   mutable std::optional<scene::SupportingPlanes> supportingPlanes;  ///< see support()
+  mutable CutReceiver cutReceiver;                                  ///< of the last frame
 };
 
 /// What is kept of a light between frames.

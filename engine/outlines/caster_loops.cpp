@@ -233,10 +233,11 @@ void CasterLoops::clear() {
   loops.clear();
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
-  enclosesLight = false;
+  enclosesLight = isRoom = seenInside = false;
   deepest = 0.0f;
   firstLayer = layerCount = 0;
   object = part = 0;
+  turnedAway = false;
   convex = true;
 }
 
@@ -251,7 +252,7 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
-                      const ListSpace& space) {
+                      const ListSpace& space, std::span<const RoomPart> seenInside) {
   SubLightLoops result{.light = light};
   std::vector<glm::vec3> loop;
   std::uint32_t layersLeft = 0;
@@ -269,10 +270,17 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
       }
       caster.addLoop(loop);
     }
-    caster.deepest = 1.0f / source.deepest;
+    caster.deepest = static_cast<float>(1.0 / static_cast<double>(source.deepest) - space.originI);
     caster.object = source.object;
     caster.part = source.part;
+    caster.turnedAway = source.turnedAway;
     caster.convex = casters[source.object].mesh->parts()[source.part].convex;
+    if (std::ranges::find(seenInside, RoomPart{source.object, source.part}) != seenInside.end()) {
+      caster.isRoom = source.enclosesLight;
+      caster.seenInside = !source.enclosesLight;
+      caster.convex = caster.convex && !caster.isRoom;
+      caster.enclosesLight = false;
+    }
   }
   return result;
 }

@@ -15,6 +15,13 @@
 
 namespace halfshadow::outlines {
 
+/// A closed part of a caster.
+struct RoomPart {
+  std::uint32_t object = 0;  ///< PlacedCaster::object
+  std::uint32_t part = 0;
+  bool operator==(const RoomPart&) const = default;
+};
+
 /// Loops of one caster part seen from one sub-light, in (t, i); counter-clockwise around what they cover.
 struct CasterLoops {
   struct Loop {
@@ -24,12 +31,15 @@ struct CasterLoops {
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
   glm::vec3 low{1e30f}, high{-1e30f};
-  float deepest = 0.0f;  ///< no point of its part has a smaller i; the loops of a bowl do not tell
-  bool enclosesLight = false;
+  float deepest = 0.0f;        ///< no point of its part has a smaller i; the loops of a bowl do not tell
+  bool enclosesLight = false;  ///< and no receiver that is seen stands inside it
+  bool isRoom = false;         ///< it encloses the light, and receivers stand inside it: only faces tell
+  bool seenInside = false;     ///< it does not, but receivers may stand inside it all the same
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
   std::uint32_t object = 0, part = 0;
+  bool turnedAway = false;  ///< the side of a sheet that looks away from the light
   /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
   bool convex = true;
 
@@ -44,9 +54,10 @@ struct SubLightLoops {
   std::vector<CasterLoops> layers;
 };
 /// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
+/// `seenInside`: parts inside which receivers may be seen.
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
-                      const ListSpace& space);
+                      const ListSpace& space, std::span<const RoomPart> seenInside = {});
 
 /// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
 /// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.

@@ -198,7 +198,7 @@ bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
 }  // namespace
 
 NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
-                        double minHeight) {
+                        double minHeight, Solid solid) {
   const scene::LightPlane& plane = space.plane;
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
   const scene::CasterPart& own = mesh.parts()[part];
@@ -206,9 +206,11 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   const glm::dmat3 lightFromObject = plane.axes * linear;
   const glm::dvec3 offset = plane.fromWorld(glm::dvec3(caster.worldFromObject[3]));
   // Faces that look towards the light run clockwise in (a, b), unless the object is mirrored.
-  const bool turned = glm::determinant(linear) > 0.0;
+  const bool turned = (glm::determinant(linear) > 0.0) == (solid != Solid::around);
 
-  NearSurface surface{.closed = own.closed, .convex = own.convex, .whole = mesh.parts().size() == 1};
+  NearSurface surface{.closed = own.closed,
+                      .convex = own.convex && solid == Solid::within,
+                      .whole = mesh.parts().size() == 1};
   std::vector<glm::dvec3> abh(mesh.positions().size());
   std::vector<std::uint32_t> pointOf(mesh.positions().size(), kNoFacet);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> cutOf;  // of edges, by their vertices
@@ -299,10 +301,18 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   return surface;
 }
 
-const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part) {
-  const auto [found, isNew] = made_.try_emplace({object, part});
-  if (isNew) found->second = nearSurface(casters_[object], part, space_, minHeight_);
+const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, Solid solid) {
+  const auto [found, isNew] = made_.try_emplace({object, part, solid});
+  if (isNew) found->second = nearSurface(casters_[object], part, space_, minHeight_, solid);
   return found->second;
+}
+
+std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
+                                        const SubLight& light, bool turnedAway) {
+  std::vector<std::uint32_t> side;
+  std::ranges::copy_if(facets, std::back_inserter(side),
+                       [&](std::uint32_t f) { return sees(surface.facets[f].plane, light) != turnedAway; });
+  return side;
 }
 
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,

@@ -12,7 +12,7 @@
 #include <glm/glm.hpp>
 #include <map>
 #include <span>
-#include <utility>
+#include <tuple>
 #include <vector>
 
 #include "outlines/receiver_tiles.hpp"
@@ -60,9 +60,16 @@ struct NearSurface {
   bool cut = false;     ///< it reaches through the light's plane
 };
 
+/// What a closed part stands for.
+enum class Solid {
+  within,  ///< the solid that it bounds
+  faces,   ///< the same, never told by its outline, also where it is convex
+  around   ///< with the light inside: the solid around a room, whose faces look into it
+};
+
 /// What reaches through the plane h = minHeight is cut there.
 NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
-                        double minHeight);
+                        double minHeight, Solid solid = Solid::within);
 
 /// Surfaces of one light's casters, each made when first asked for.
 class NearSurfaces {
@@ -71,7 +78,7 @@ class NearSurfaces {
   NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space, double minHeight)
       : casters_(casters.begin(), casters.end()), space_(space), minHeight_(minHeight) {}
   /// `object`: index of the caster. The reference lasts as long as this object.
-  const NearSurface& of(std::uint32_t object, std::uint32_t part);
+  const NearSurface& of(std::uint32_t object, std::uint32_t part, Solid solid = Solid::within);
   const ListSpace& space() const { return space_; }
   /// For ReceiverSet::tile.
   std::uint64_t nextTile() { return ++tile_; }
@@ -81,7 +88,7 @@ class NearSurfaces {
   ListSpace space_;
   double minHeight_ = 0.0;
   std::uint64_t tile_ = 0;
-  std::map<std::pair<std::uint32_t, std::uint32_t>, NearSurface> made_;
+  std::map<std::tuple<std::uint32_t, std::uint32_t, Solid>, NearSurface> made_;
 };
 
 /// Which facets stand for the caster. Of a closed surface every ray from a receiver to the light leaves as
@@ -99,6 +106,10 @@ struct ReceiverSet {
   std::span<const ReceiverPatch> patches;
   std::uint64_t tile = 0;  ///< a number of its own for each set with patches
 };
+
+/// Those of a sheet's facets that look towards the light's centre, or those that look away.
+std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
+                                        const SubLight& light, bool turnedAway);
 
 /// Facets that can cover some of the light for some receiver in the box, or more. Replaces `result`.
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,

@@ -100,12 +100,19 @@ void faceLight(Polygon& polygon, bool closed) {
   if (polygon.turned) polygon.plane = -polygon.plane;
 }
 
+/// One part in a thousand wider than the tile, since fragments find theirs in single precision.
+TangentRect tileRect(const ReceiverTiles& tiles, int x, int y) {
+  const glm::dvec2 low = tiles.low + tiles.tileSize * glm::dvec2(x, y), border = 1e-3 * tiles.tileSize;
+  return {.low = tiles.scale.tangent(low - border),
+          .high = tiles.scale.tangent(low + tiles.tileSize + border)};
+}
+
 void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& found) {
   const auto clampedIndex = [](double value, int count) {
     return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
   };
-  const glm::dvec2 from = (glm::dvec2(polygon.low) - tiles.low) / tiles.tileSize;
-  const glm::dvec2 to = (glm::dvec2(polygon.high) - tiles.low) / tiles.tileSize;
+  const glm::dvec2 from = (tiles.scale.squeezed(glm::dvec2(polygon.low)) - tiles.low) / tiles.tileSize;
+  const glm::dvec2 to = (tiles.scale.squeezed(glm::dvec2(polygon.high)) - tiles.low) / tiles.tileSize;
   if (to.x < 0 || to.y < 0 || from.x > tiles.columns || from.y > tiles.rows) return;
   // One part in a thousand of a tile, since fragments find their tile in single precision.
   const int x0 = clampedIndex(from.x - 1e-3, tiles.columns), x1 = clampedIndex(to.x + 1e-3, tiles.columns);
@@ -117,11 +124,10 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
   const double turn = many ? turnOf(polygon) : 1.0;
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      const glm::dvec2 tileLow = tiles.low + tiles.tileSize * glm::dvec2(x, y);
-      const glm::dvec2 border = 1e-3 * tiles.tileSize;
-      const glm::dvec2 low = glm::max(tileLow - border, glm::dvec2(polygon.low));
-      const glm::dvec2 high = glm::min(tileLow + tiles.tileSize + border, glm::dvec2(polygon.high));
-      if (many && !meets(polygon, tileLow - border, tileLow + tiles.tileSize + border, turn)) continue;
+      const TangentRect tile = tileRect(tiles, x, y);
+      const glm::dvec2 low = glm::max(tile.low, glm::dvec2(polygon.low));
+      const glm::dvec2 high = glm::min(tile.high, glm::dvec2(polygon.high));
+      if (many && !meets(polygon, tile.low, tile.high, turn)) continue;
       double iLow = polygon.low.z, iHigh = polygon.high.z;
       if (isPlane) {
         const glm::dvec2 middle = 0.5 * (low + high), reach = 0.5 * glm::max(high - low, glm::dvec2(0.0));
@@ -131,15 +137,15 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
         iHigh = std::min(iHigh, center + spread);
         if (iLow > iHigh) iLow = iHigh = std::clamp(center, polygon.low.z, polygon.high.z);
       }
-      const std::size_t tile =
+      const std::size_t index =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) + static_cast<std::size_t>(x);
       if (found.wanted) {
-        found.tile.push_back(static_cast<std::uint32_t>(tile));
+        found.tile.push_back(static_cast<std::uint32_t>(index));
         found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.plane,
                                liftOf(polygon.plane, low, high, iLow, iHigh), polygon.eitherSide,
                                polygon.turned});
       }
-      TangentBox& box = tiles.boxes[tile];
+      TangentBox& box = tiles.boxes[index];
       const double rounding = 2.0 * kPlaceRounding * std::max(std::abs(iLow), std::abs(iHigh));
       const auto l = static_cast<float>(iLow - rounding), h = static_cast<float>(iHigh + rounding);
       const bool first = box.empty();
@@ -161,8 +167,9 @@ void keepPatches(const FoundPatches& found, ReceiverTiles& tiles) {
 }  // namespace
 
 ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& space,
-                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight) {
-  ReceiverTiles tiles;
+                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight,
+                            const TileScale& scale) {
+  ReceiverTiles tiles{.scale = scale};
   if (shadows.empty()) return tiles;
   const scene::LightPlane& plane = space.plane;
   const glm::dmat3 linear(surface.worldFromObject);
@@ -198,9 +205,9 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
     reached.high = glm::max(reached.high, glm::dvec2(polygon.high));
   }
   if (polygons.empty()) return tiles;
-  tiles.low = glm::max(reached.low, shadows.low);
+  tiles.low = scale.squeezed(glm::max(reached.low, shadows.low));
   const glm::dvec2 size =
-      glm::max(glm::min(reached.high, shadows.high) - tiles.low, glm::dvec2(1e-6 * tileSize));
+      glm::max(scale.squeezed(glm::min(reached.high, shadows.high)) - tiles.low, glm::dvec2(1e-6 * tileSize));
   const auto count = [&](double length) {
     return std::clamp(static_cast<int>(std::ceil(length / tileSize)), 1, maxTiles);
   };
@@ -215,9 +222,16 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
     for (int x = 0; x < tiles.columns; ++x) {
       TangentBox& box = tiles.boxes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) +
                                     static_cast<std::size_t>(x)];
-      const glm::dvec2 low = tiles.low + tiles.tileSize * glm::dvec2(x, y);
-      box.tLow = glm::vec2(low - 1e-3 * tiles.tileSize);
-      box.tHigh = glm::vec2(low + 1.001 * tiles.tileSize);
+      const TangentRect tile = tileRect(tiles, x, y);
+      box.tLow = glm::vec2(tile.low);
+      box.tHigh = glm::vec2(tile.high);
+      for (int k = 0; k < 2; ++k) {
+        if (scale.squeeze[k] == 0.0) continue;
+        // The last tiles end where the receiver does.
+        const double rounding = 1e-5 * std::max(std::abs(reached.low[k]), std::abs(reached.high[k]));
+        box.tLow[k] = std::max(box.tLow[k], static_cast<float>(reached.low[k] - rounding));
+        box.tHigh[k] = std::min(box.tHigh[k], static_cast<float>(reached.high[k] + rounding));
+      }
       if (box.empty()) continue;
       // Fragments are lifted after their tile was found.
       const glm::vec2 lift =

@@ -34,9 +34,21 @@ struct ReceiverPatch {
   bool turned = false;      ///< it is seen from its inner side
 };
 
+/// Tangents as tiles divide them: t / (1 + |t| · squeeze). What reaches up to the light's plane has tangents
+/// without end, which even tiles would spread over; with a squeeze tiles grow outwards, and the last are
+/// endless.
+struct TileScale {
+  glm::dvec2 squeeze{0.0};
+  glm::dvec2 squeezed(const glm::dvec2& t) const { return t / (1.0 + glm::abs(t) * squeeze); }
+  glm::dvec2 tangent(const glm::dvec2& s) const {
+    return s / glm::max(1.0 - glm::abs(s) * squeeze, glm::dvec2(1e-9));
+  }
+};
+
 /// A grid over the tangents that a receiver and the shadows share; `boxes` row by row, empty where the
-/// receiver has no surface turned towards the light.
+/// receiver has no surface turned towards the light. `low` and `tileSize` are on the tiles' scale.
 struct ReceiverTiles {
+  TileScale scale;
   glm::dvec2 low{0.0}, tileSize{1.0};
   int columns = 0, rows = 0;
   std::vector<TangentBox> boxes;
@@ -58,9 +70,10 @@ struct ReceiverSurface {
   bool withPatches = false;  ///< ReceiverTiles::patches are wanted
 };
 
-/// `tileSize`: side of a tile in tangents; grown so that the grid has at most `maxTiles` along a side.
+/// `tileSize`: side of a tile on the scale; grown so that the grid has at most `maxTiles` along a side.
 /// `minHeight`: surfaces nearer to the light's plane are left out.
 ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& space,
-                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight);
+                            const TangentRect& shadows, double tileSize, int maxTiles, double minHeight,
+                            const TileScale& scale = {});
 
 }  // namespace halfshadow::outlines

@@ -21,7 +21,8 @@ struct BlockCasters {
     const CasterLoops* caster = nullptr;
     const NearSurface* surface = nullptr;
     FacetChoice choice = FacetChoice::asLightSees;
-    std::span<const std::uint32_t> facets;  ///< none where another entry of the same surface has them
+    std::vector<std::uint32_t> facets;    ///< none where another entry of the same surface has them
+    const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
   };
   struct Partial {
     CasterLoops loops;
@@ -36,15 +37,14 @@ struct BlockCasters {
 class BlockFacets {
  public:
   void clear() { facets_.clear(); }
-  std::span<const std::uint32_t> of(const CasterLoops& caster, const NearSurface& surface,
-                                    const TangentBox& receivers) {
-    const auto [found, isNew] = facets_.try_emplace({caster.object, caster.part});
+  std::span<const std::uint32_t> of(const NearSurface& surface, const TangentBox& receivers) {
+    const auto [found, isNew] = facets_.try_emplace(&surface);
     if (isNew) facetsInReach(surface, receivers, found->second);
     return found->second;
   }
 
  private:
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::uint32_t>> facets_;
+  std::map<const NearSurface*, std::vector<std::uint32_t>> facets_;
 };
 
 /// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
@@ -111,6 +111,11 @@ void forEachLayer(const SubLightLoops& loops, const CasterLoops& caster, auto&& 
   for (std::uint32_t l = 0; l < caster.layerCount; ++l) use(loops.layers[caster.firstLayer + l]);
 }
 
+/// No point of the caster has a smaller i.
+float deepestOf(const CasterLoops& caster) {
+  return caster.isRoom ? caster.deepest : std::min(caster.low.z, caster.deepest);
+}
+
 void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
                  const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
   result.full = false;
@@ -124,24 +129,36 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
     result.full = result.full || coverage == Coverage::full;
   };
-  const auto addNear = [&](const CasterLoops& caster) {
+  const auto addNear = [&](const CasterLoops& caster, Solid solid) {
     BlockCasters::Near near{.caster = &caster,
-                            .surface = &surfaces.of(caster.object, caster.part),
+                            .surface = &surfaces.of(caster.object, caster.part, solid),
                             .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
-                                                                          : FacetChoice::asLightSees};
+                                                                          : FacetChoice::asLightSees,
+                            .around = around};
     if (near.surface->facets.empty()) return false;
-    near.facets = facets.of(caster, *near.surface, receivers);
-    if (near.facets.empty()) return true;
-    if (std::ranges::find(result.near, near.surface, &BlockCasters::Near::surface) != result.near.end())
-      near.facets = {};
-    result.near.push_back(near);
+    const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers);
+    if (all.empty()) return true;
+    // The two sides of a sheet cover the same ground twice: they are two casters among its surfaces, too.
+    const bool sided = !near.surface->closed && near.choice == FacetChoice::asLightSees;
+    const bool known = std::ranges::any_of(result.near, [&](const BlockCasters::Near& other) {
+      return other.surface == near.surface && (!sided || other.caster->turnedAway == caster.turnedAway);
+    });
+    if (!known && sided) near.facets = facetsOfSide(*near.surface, all, loops.light, caster.turnedAway);
+    if (!known && !sided) near.facets.assign(all.begin(), all.end());
+    result.near.push_back(std::move(near));
     return true;
   };
   for (const CasterLoops& caster : loops.casters) {
     around = nullptr;
-    const glm::vec3 low(glm::vec2(caster.low), std::min(caster.low.z, caster.deepest));
+    const glm::vec3 low(glm::vec2(caster.low), deepestOf(caster));
     if (low.z >= receivers.iHigh) {
-      forEachLayer(loops, caster, add);
+      // Behind all of a room is outside of it.
+      result.full = result.full || caster.isRoom;
+      if (!caster.isRoom) forEachLayer(loops, caster, add);
+      continue;
+    }
+    if (caster.isRoom) {
+      addNear(caster, Solid::around);
       continue;
     }
     if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
@@ -152,9 +169,11 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
         around = &surface;
       }
     }
+    // From within, and from its faces, the outline of a convex caster goes half round a receiver and more.
+    if (around != nullptr && caster.seenInside && addNear(caster, Solid::faces)) continue;
     const bool among = !caster.enclosesLight && (!caster.convex || caster.object == receiver.ownObject);
     if (among && sides.code(low, caster.high) != 0) continue;
-    if (!among || !addNear(caster)) add(caster);
+    if (!among || !addNear(caster, Solid::within)) add(caster);
   }
   if (result.full) {
     result.partial.clear();
@@ -232,8 +251,12 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
-      const auto& [caster, surface, choice, facets] = block[s].near[c];
-      if (std::min(caster->low.z, caster->deepest) >= receivers.iHigh) {
+      const auto& [caster, surface, choice, facets, around] = block[s].near[c];
+      if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
+        full = true;
+      } else if (deepestOf(*caster) >= receivers.iHigh) {
+        full = full || caster->isRoom;
+        if (full) break;
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
           if (!full) add(simplify(layer, loops.light, receivers, simplified));
         });
@@ -317,7 +340,7 @@ TangentRect shadowedTangents(std::span<const SubLightLoops> subLights, double fa
   TangentRect rect;
   for (const SubLightLoops& subLight : subLights) {
     for (const CasterLoops& caster : subLight.casters) {
-      if (caster.enclosesLight) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
+      if (caster.enclosesLight || caster.isRoom) return {.low = glm::dvec2(-1e30), .high = glm::dvec2(1e30)};
       for (const glm::vec3& point : caster.points) {
         // A receiver behind E is shadowed from light points up to 1 away: its tangent differs from E's by at
         // most the light's half side as it grows from E's height to the receiver's.

@@ -196,6 +196,18 @@ bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std
   });
 }
 
+/// With all of the near plane.
+bool Separation::eyeIsInside(std::uint32_t index) {
+  if (input_.camera == nullptr) return false;
+  askedCamera_ = true;
+  return std::ranges::all_of(facePlanes(index), [&](const Plane& plane) {
+    const double most = plane.offset - rounding(index, plane.normal);
+    return glm::dot(plane.normal, eye_) <= most &&
+           std::ranges::all_of(nearCorners_,
+                               [&](const glm::dvec3& c) { return glm::dot(plane.normal, c) <= most; });
+  });
+}
+
 bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
   askedCamera_ = false;
   const bool answer = proves(caster, receiver);
@@ -224,6 +236,7 @@ bool Separation::proves(std::uint32_t caster, std::uint32_t receiver) {
     }
   }
   if (!c.support->convex || !enclosesLight(caster)) return false;
+  if (c.receives && eyeIsInside(caster)) return true;
   return std::ranges::all_of(facePlanes(caster), [&](const Plane& plane) {
     const double slack = rounding(caster, plane.normal) + rounding(receiver, plane.normal);
     return reachesOnlyFrom(receiver, -plane.normal, -plane.offset - slack);

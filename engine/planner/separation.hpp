@@ -17,7 +17,9 @@ namespace halfshadow::planner {
 /// For one light. A receiver is not shadowed by a caster
 /// - where a plane has the caster on one side and the receiver with the whole light on the other: one of the
 ///   few planes that support either (a ground under what stands on it, a box under a floor);
-/// - where both it and the whole light are inside the caster and that is a closed convex body (a room);
+/// - where both it and the whole light are inside the caster and that is a closed convex body (a room), or
+/// the
+///   eye and the light are, and the room is drawn: then nothing outside is seen;
 /// - by itself, when it is flat; or when it is a closed convex body, no face's plane cuts the light, and it
 /// is
 ///   seen from outside or holds the light: its faces then see all of the light or do not face it.
@@ -66,6 +68,7 @@ class Separation {
   bool shadowsItself(std::uint32_t object);
   bool hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver, double slack);
   bool enclosesLight(std::uint32_t object);
+  bool eyeIsInside(std::uint32_t object);
 
   const FrameInput& input_;
   const scene::AreaLight& light_;

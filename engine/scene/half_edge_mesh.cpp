@@ -194,7 +194,7 @@ std::string describe(const CasterPart& part) {
         count(part.boundaryEdges, " border edge", " border edges"));
   }
   if (part.issue == PartIssue::notOrientable) add("its faces cannot all be wound alike");
-  if (part.inward) add("wound inward: taken as outward, but a light inside stays visible");
+  if (part.inward) add("wound inward: taken as outward");
   if (part.flippedFaces > 0 && !part.inward)
     add(count(part.flippedFaces, " face", " faces") + " turned round");
   if (part.repairedTJunctions > 0) {

@@ -55,7 +55,7 @@ struct CasterPart {
   std::uint32_t filledGaps = 0;          ///< cracks and small openings closed with faces of their own
   PartIssue issue = PartIssue::none;
   /// The source mesh wound all of this closed part inward, like the walls of a room seen from within. The
-  /// part is held outward all the same; but a light inside it lights the room: enclosesLight stays false.
+  /// part is held outward all the same.
   bool inward = false;
   std::uint32_t firstCluster = 0, clusterCount = 0;
   std::uint32_t firstGroup = 0, groupCount = 0;

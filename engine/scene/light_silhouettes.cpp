@@ -72,9 +72,13 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
-    if (!placed.closed) {
-      for (const glm::dvec3& corner : caster.mesh->parts()[part.part].bounds.corners()) {
-        placed.deepest = std::max(placed.deepest, static_cast<float>(lightFromObject(glm::vec3(corner)).z));
+    if (!placed.closed || placed.enclosesLight) {
+      const CasterPart& own = caster.mesh->parts()[part.part];
+      for (const glm::uvec3& face : caster.mesh->faces().subspan(own.firstFace, own.faceCount)) {
+        for (int k = 0; k < 3; ++k) {
+          const double h = lightFromObject(caster.mesh->positions()[face[k]]).z;
+          placed.deepest = std::max(placed.deepest, static_cast<float>(h));
+        }
       }
     }
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);

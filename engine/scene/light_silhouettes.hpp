@@ -64,8 +64,10 @@ struct LightSilhouettes {
     /// Else one side of a sheet: the faces that look towards the light and those that look away are two
     /// entries, so that one entry covers nothing twice unless the surface itself folds.
     bool closed = true;
-    bool turnedAway = false;     ///< the faces of a sheet that look away
-    bool enclosesLight = false;  ///< the source lies inside it: nothing outside sees the light
+    bool turnedAway = false;  ///< the faces of a sheet that look away
+    /// The source lies inside it: nothing outside sees the light, and for receivers inside it is the solid
+    /// around a room. Its loops tell nothing.
+    bool enclosesLight = false;
   };
   /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover. In
   /// double: far from the light all heights are about equal.

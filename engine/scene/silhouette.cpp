@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "scene/edge_uses.hpp"
+#include "scene/enclosure.hpp"
 #include "scene/half_edge_mesh.hpp"
 
 namespace halfshadow::scene {
@@ -45,26 +46,6 @@ void findFacing(const HalfEdgeMesh& mesh, const glm::vec3& light, Silhouette& s)
     }
     s.counters.facesTested += cluster.faceCount;
   }
-}
-
-bool inside(const Bounds& bounds, const glm::dvec3& p) {
-  return glm::all(glm::greaterThanEqual(p, bounds.low)) && glm::all(glm::lessThanEqual(p, bounds.high));
-}
-
-/// Winding number of a closed part around a point, from the faces' solid angles.
-/// Based on: Van Oosterom, Strackee, "The Solid Angle of a Plane Triangle", 1983.
-double windingNumber(const HalfEdgeMesh& mesh, const CasterPart& part, const glm::dvec3& point) {
-  double sum = 0.0;
-  for (std::uint32_t f = part.firstFace; f < part.firstFace + part.faceCount; ++f) {
-    const glm::uvec3& face = mesh.faces()[f];
-    const glm::dvec3 a = glm::dvec3(mesh.positions()[face.x]) - point;
-    const glm::dvec3 b = glm::dvec3(mesh.positions()[face.y]) - point;
-    const glm::dvec3 c = glm::dvec3(mesh.positions()[face.z]) - point;
-    const double la = glm::length(a), lb = glm::length(b), lc = glm::length(c);
-    sum += std::atan2(glm::dot(a, glm::cross(b, c)),
-                      la * lb * lc + glm::dot(a, b) * lc + glm::dot(b, c) * la + glm::dot(c, a) * lb);
-  }
-  return sum / (2.0 * 3.14159265358979323846);
 }
 
 void link(Silhouette& s, std::uint32_t from, std::uint32_t to) {
@@ -221,8 +202,7 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
       linkBoundary(mesh, part, side, s);
       chain(s);
       found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
-      found.enclosesLight = part.closed && !part.inward && inside(part.bounds, lightObject) &&
-                            windingNumber(mesh, part, lightObject) > 0.5;
+      found.enclosesLight = enclosesPoint(mesh, part, lightObject);
       if (found.loopCount > 0 || found.enclosesLight) s.parts.push_back(found);
     }
   }

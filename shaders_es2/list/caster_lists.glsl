@@ -16,7 +16,8 @@ uniform HS_HIGHP vec4 u_rayOrigin;
 uniform HS_HIGHP vec4 u_eyeLight;  // the eye, like v_map
 varying HS_HIGHP vec4 v_map;       // (t, i) = xyz / w, w: the height over the light
 uniform HS_HIGHP sampler2D u_cellTiles;
-uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = tangent · xy + zw
+uniform HS_HIGHP vec2 u_tileSqueeze;    // of tangents, so that endless ones have a tile
+uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = squeezed tangent · xy + zw
 uniform HS_HIGHP vec4 u_tileAtlas;      // xy: columns and rows of the receiver's tiles, zw: first texel
 #if defined(HS_CASTING_RECEIVER) && (defined(HS_FACET_NORMAL) || defined(HS_DERIVATIVES))
 #define HS_LIFTED
@@ -54,7 +55,8 @@ void hs_findList() {
 #endif
   HS_HIGHP float reciprocal = 1.0 / max(position.w, u_listPlace.x);
   hs_receiver = position.xyz * reciprocal;
-  HS_HIGHP vec2 tile = floor(hs_receiver.xy * u_tileOfTangent.xy + u_tileOfTangent.zw);
+  HS_HIGHP vec2 squeezed = hs_receiver.xy / (1.0 + abs(hs_receiver.xy) * u_tileSqueeze);
+  HS_HIGHP vec2 tile = floor(squeezed * u_tileOfTangent.xy + u_tileOfTangent.zw);
   hs_outside = position.w < u_listPlace.x || min(tile.x, tile.y) < 0.0 || tile.x >= u_tileAtlas.x ||
                  tile.y >= u_tileAtlas.y;
   HS_COUNT(1);

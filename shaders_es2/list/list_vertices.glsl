@@ -67,18 +67,18 @@ HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 center, HS_HIGHP vec3 receiver, HS_HIG
 
 // Whether a loop starts here (no edge leads here) or closes, and what ends: 1 the caster, 2 the sub-light, 3 the
 // list. `side`: the sub-light's, in half sides of the light. `oneSided`: the loop counts only where what it covers
-// is positive.
+// is positive. `coarse`: its steps, of the list's.
 struct HS_Tags {
   HS_HIGHP float starts, closes, ends;
 #ifdef HS_ONE_SIDED
-  HS_HIGHP float oneSided;
+  HS_HIGHP float oneSided, coarse;
 #endif
   HS_HIGHP vec2 side;
 };
 
 #if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
 HS_HIGHP vec3 hs_facet = vec3(0.0);  // how the plane of the receiver's facet rises along (t, i), on its visible side
-HS_HIGHP float hs_facetRounding = 0.0;  // vertices are known to lie off that plane where they rise by more
+HS_HIGHP float hs_facetRounding = 0.0;  // for vertices of one step: they are known to lie off that plane where they rise by more
 #endif
 #ifdef HS_BEHIND_FACETS
 // Corner 0, 1 or 2 of a triangle that has of the light what lies behind that plane, counter-clockwise.
@@ -113,6 +113,7 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
 #ifdef HS_ONE_SIDED
   tags.oneSided = step(7.5, rest);
   rest -= 8.0 * tags.oneSided;
+  tags.coarse = bytes.y * bytes.y;
 #endif
 #ifdef HS_BEHIND_FACETS
   HS_HIGHP float behind = step(3.5, rest);

@@ -19,6 +19,7 @@ uniform HS_HIGHP sampler2D u_cells2;
 uniform HS_HIGHP sampler2D u_cells3;
 #endif
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
+varying HS_HIGHP vec4 v_map;       // w: height over the light's plane
 float halfshadow_visibility() {
   HS_COUNT(HS_CELL_TARGETS);
   HS_HIGHP vec2 at = gl_FragCoord.xy * u_viewport.xy + u_viewport.zw;
@@ -26,7 +27,8 @@ float halfshadow_visibility() {
 #if HS_CELL_TARGETS >= 4
   sum += texture2D(u_cells1, at) + texture2D(u_cells2, at) + texture2D(u_cells3, at);
 #endif
-  return dot(sum, vec4(0.25 / float(HS_CELL_TARGETS)));
+  // Behind the light's plane it shines on nothing.
+  return v_map.w <= 0.0 ? 1.0 : dot(sum, vec4(0.25 / float(HS_CELL_TARGETS)));
 }
 #endif
 #ifdef HS_SHADED

@@ -22,9 +22,12 @@ float halfshadow_visibility() { return hs_gatheredLight(); }
 uniform HS_HIGHP sampler2D u_wedges;
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
 uniform HS_HIGHP vec4 u_wedgeSteps;
+varying HS_HIGHP vec4 v_map;  // w: height over the light's plane
 float halfshadow_visibility() {
   HS_COUNT(1);
   HS_HIGHP vec4 stored = texture2D(u_wedges, gl_FragCoord.xy * u_viewport.xy + u_viewport.zw);
+  // Behind the light's plane it shines on nothing.
+  if (v_map.w <= 0.0) return 1.0;
 #ifdef HS_WEDGE_SUMS
   return 1.0 - clamp(hs_decodeCoverage(stored, u_wedgeSteps.x), 0.0, 1.0);
 #elif defined(HS_WEDGE_SHARES)

@@ -236,9 +236,14 @@ TEST(Separation, AConvexRoomAroundLightAndReceiversIsNoCaster) {
   EXPECT_TRUE(empty.casts(empty.plan(lightAt({9, 12, 8}), inside), house));
   EXPECT_FALSE(empty.casts(empty.plan(lightAt({9, 12, 8}), kCamera), house))
       << "outside, all of it that faces is lit";
-  // A ground outside is shadowed by it.
+  // A ground outside is shadowed by it, which shows from outside only.
   room.add(grid(1, 40), glm::translate(glm::dmat4(1.0), glm::dvec3(0, -1, 0)), false);
-  EXPECT_TRUE(room.casts(room.plan(lamp, inside), walls));
+  EXPECT_FALSE(room.casts(room.plan(lamp, inside), walls));
+  const scene::Camera outside{.eyeWorld = {-9, 4, 8}, .targetWorld = {0, 0, 0}};
+  EXPECT_TRUE(room.casts(room.plan(lamp, outside), walls));
+  // Not where the near plane opens a wall.
+  const scene::Camera opening{.eyeWorld = {-2, 1.6, 2}, .targetWorld = {0, 1, 0}, .nearDistance = 6.0};
+  EXPECT_TRUE(room.casts(room.plan(lamp, opening), walls));
 }
 
 TEST(Separation, ALightThatCutsAFacesPlaneKeepsTheBody) {

@@ -6,6 +6,13 @@
 
 namespace halfshadow::techniques {
 
+glm::dmat4 heightFromWorld(const LightScene& scene) {
+  glm::dmat4 rows;
+  for (int column = 0; column < 4; ++column)
+    rows[column] = glm::dvec4(scene.fit().lightFromWorld[column].z / scene.fit().nearDistance);
+  return rows;
+}
+
 std::span<const scene::PlacedCaster> placedCasters(const LightScene& scene) {
   if (scene.groups.holds(scene.contentKey)) return scene.groups.placed();
   std::vector<scene::SceneCaster> casters;

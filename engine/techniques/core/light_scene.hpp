@@ -59,6 +59,10 @@ struct LightScene {
   const planner::LightFit& fit() const { return center().fit; }
 };
 
+/// For ReceiverShading::mapFromWorld of what tells nothing but the height over the light's plane (z), in
+/// every component.
+glm::dmat4 heightFromWorld(const LightScene& scene);
+
 /// The frame's casters as silhouettes are taken of them, those whose borders coincide as one; `object` is the
 /// index in this list. Meshes last until the casters change.
 std::span<const scene::PlacedCaster> placedCasters(const LightScene& scene);

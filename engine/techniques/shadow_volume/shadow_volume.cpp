@@ -63,10 +63,7 @@ class VolumePlanner final : public LightPlanner {
     shading.fragmentFile = "screen/screen_visibility.frag";
     shading.forward = false;
     shading.textures = {{.sampler = "u_screen", .resource = target}};
-    for (int column = 0; column < 4; ++column) {
-      shading.mapFromWorld[column] =
-          glm::dvec4(scene.fit().lightFromWorld[column].z / scene.fit().nearDistance);
-    }
+    shading.mapFromWorld = heightFromWorld(scene);
     glm::vec4 channel(0.0f);
     channel[scene.channel] = counter == VolumeCounter::stencil ? 1.0f : -255.0f;
     shading.uniforms.set("u_channel", channel);

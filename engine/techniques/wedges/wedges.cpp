@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges/wedges.hpp"
 
+#include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
 
@@ -76,6 +77,7 @@ class AdditiveWedges final : public Technique {
             "up"};
     return info;
   }
+  std::optional<StandIn> standIn(const LightScene& frame) const override { return standInForRooms(frame); }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges.route"), own_.setting()};
   }
@@ -106,6 +108,7 @@ class ProbabilisticWedges final : public Technique {
             "within a quadrant add up"};
     return info;
   }
+  std::optional<StandIn> standIn(const LightScene& frame) const override { return standInForRooms(frame); }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges-probabilistic.route"), own_.setting()};
   }
@@ -129,7 +132,7 @@ class ProbabilisticWedges final : public Technique {
         if (Status s = declareMerge(frame, volumes, batch, sums, visibility); !s) return s.error();
       }
     }
-    return own_.addTo(screenShading(visibility, 0.0f), frame);
+    return own_.addTo(screenShading(frame, visibility, 0.0f), frame);
   }
   void contextLost() override {
     routes_.contextLost();

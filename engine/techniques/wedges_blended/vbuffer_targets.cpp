@@ -269,7 +269,7 @@ Result<ReceiverShading> declareVbufferTargets(const LightFrame& frame, CasterDra
   if (!depth) return depth.error();
   VbufferPasses passes(frame, draws, *depth, request);
   if (Status s = passes.declare(); !s) return s.error();
-  return shareShading(passes.share());
+  return shareShading(frame, passes.share());
 }
 
 }  // namespace halfshadow::techniques

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
@@ -92,6 +93,11 @@ class WedgesBlended final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
+    if (lightIsInRoom(frame)) {
+      frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge",
+                              "the light is inside a closed caster: its faces are gathered");
+      return gather(frame, lights_[frame.lightIndex].lists);
+    }
     const WedgeVolumes& volumes = routes_.volumes(frame);
     Light& light = lights_[frame.lightIndex];
     if (light.meetKey != volumes.contentKey) {

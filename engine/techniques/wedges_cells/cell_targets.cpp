@@ -125,6 +125,7 @@ Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws&
   shading.defines = {"HS_CELL_TARGETS " + std::to_string(textures.size()),
                      "HS_CELLS " + std::to_string(cells)};
   shading.forward = false;
+  shading.mapFromWorld = heightFromWorld(frame);
   shading.textures = std::move(textures);
   return shading;
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 
+#include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
 
@@ -25,6 +26,8 @@ Route routeOf(const LightFrame& frame) {
   if (!frame.capabilities.has(device::Capability::highp)) {
     return instead(Route::gather, "a receiver's place needs highp in fragment shaders: cells are gathered");
   }
+  if (lightIsInRoom(frame))
+    return instead(Route::gather, "the light is inside a closed caster: its faces are gathered");
   if (asked == "fetch" && !frame.capabilities.has(device::Capability::framebufferFetch)) {
     return instead(Route::scatter, "no framebuffer fetch here: cells are multiplied by blending");
   }

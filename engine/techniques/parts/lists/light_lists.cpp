@@ -13,6 +13,10 @@ namespace {
 /// third less at 1/2, for twice and a half more list building.
 constexpr double kCasterTileShare = 0.5;
 
+/// Slope, sideways over height, up to which squeezed tiles are about even, and how many times as far
+/// receivers and shadows must reach to have them.
+constexpr double kEvenSlope = 2.0, kSqueezedFrom = 16.0;
+
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
@@ -126,9 +130,19 @@ bool LightLists::boundShadows(const LightFrame& frame) {
     }
   }
   shadows_ = shadowedTangents(loops_.subLights(), reach.farthest);
-  const glm::dvec2 size = glm::min(shadows_.high, reach.rect.high) - glm::max(shadows_.low, reach.rect.low);
+  const glm::dvec2 low = glm::max(shadows_.low, reach.rect.low),
+                   high = glm::min(shadows_.high, reach.rect.high);
+  const scene::LightPlane& plane = loops_.space().plane;
+  const glm::dvec2 even =
+      kEvenSlope * plane.heightUnit / glm::dvec2(glm::length(plane.halfU), glm::length(plane.halfV));
+  outlines::TileScale scale;
+  for (int k = 0; k < 2; ++k) {
+    if (high[k] - low[k] > kSqueezedFrom * even[k]) scale.squeeze[k] = 1.0 / even[k];
+  }
+  const glm::dvec2 size = scale.squeezed(high) - scale.squeezed(low);
   const double longer = std::max(size.x, size.y);
-  const bool same = longer == shadowSize_;
+  const bool same = longer == shadowSize_ && scale.squeeze == scale_.squeeze;
+  scale_ = scale;
   shadowSize_ = longer > 0.0 ? longer : 1.0;
   return same;
 }
@@ -174,7 +188,7 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
                            .closed = !seenFromBehind,
                            .withPatches = receiver.ownObject != outlines::kNoObject},
                           loops_.space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
-                          kMaxTiles, loops_.minHeight());
+                          kMaxTiles, loops_.minHeight(), scale_);
         cached.lists = tileLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges,
                                  mostRecords - records);
         changed = true;
@@ -255,10 +269,12 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
     const auto found = receivers_.find(item.geometry);
     if (found == receivers_.end() || found->second.tiles.empty()) {
       program.set(context, "u_tileAtlas", glm::vec4(0.0f));
+      program.set(context, "u_tileSqueeze", glm::vec2(0.0f));
       return;
     }
     const outlines::ReceiverTiles& tiles = found->second.tiles;
     const glm::dvec2 scale = 1.0 / tiles.tileSize;
+    program.set(context, "u_tileSqueeze", glm::vec2(tiles.scale.squeeze));
     program.set(context, "u_tileOfTangent", glm::vec4(glm::dvec4(scale, -tiles.low * scale)));
     program.set(context, "u_tileAtlas",
                 glm::vec4(tiles.columns, tiles.rows, found->second.firstTexel.x, found->second.firstTexel.y));

@@ -63,7 +63,8 @@ class LightLists {
   outlines::NearSurfaces surfaces_;
   std::uint64_t sceneKey_ = 0;
   outlines::TangentRect shadows_;
-  double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers
+  outlines::TileScale scale_;
+  double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers, on that scale
   double tileSize_ = 1.0;
   int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
   std::vector<const void*> casters_;           ///< by their geometry

@@ -7,6 +7,7 @@
 
 #include "base/keys.hpp"
 #include "outlines/enclosed_casters.hpp"
+#include "techniques/core/light_rooms.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -19,6 +20,9 @@ constexpr double kMinHalfLengthOfHalves = 1e-4;
 constexpr double kNearestCut = 1e-3;
 /// Casters that lie within so much of their middle's height have it for the origin of (t, i).
 constexpr double kShallow = 0.25;
+/// Only what lies so near to the light, against the nearest caster, has a say in that origin: about a world
+/// between two casters neither would be known well.
+constexpr double kOriginReach = 8.0;
 
 /// No caster that is far away, or wide, makes this larger.
 double nearestDistance(std::span<const DrawItem> casters, const glm::dvec3& lightCenterWorld) {
@@ -30,11 +34,17 @@ double nearestDistance(std::span<const DrawItem> casters, const glm::dvec3& ligh
   return nearest;
 }
 
-outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> casters) {
+outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const DrawItem> casters,
+                            double nearest) {
   outlines::ListSpace space(plane);
+  const scene::Bounds near{plane.centerWorld - kOriginReach * nearest,
+                           plane.centerWorld + kOriginReach * nearest};
   glm::dvec3 low(1e300), high(-1e300);
   for (const DrawItem& caster : casters) {
-    for (const glm::dvec3& corner : caster.boundsWorld.corners()) {
+    const scene::Bounds box{glm::max(caster.boundsWorld.low, near.low),
+                            glm::min(caster.boundsWorld.high, near.high)};
+    if (!glm::all(glm::lessThanEqual(box.low, box.high))) continue;
+    for (const glm::dvec3& corner : box.corners()) {
       low = glm::min(low, plane.fromWorld(corner));
       high = glm::max(high, plane.fromWorld(corner));
     }
@@ -48,15 +58,18 @@ outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const Draw
 }  // namespace
 
 bool LightLoops::update(const LightFrame& frame, std::span<const outlines::SubLight> subLights) {
-  const std::uint64_t key = combineKeys(frame.contentKey, frame.settings.revision());
+  const std::vector<outlines::RoomPart> seenInside = partsSeenInside(frame);
+  std::uint64_t key = combineKeys(frame.contentKey, frame.settings.revision());
+  for (const outlines::RoomPart& room : seenInside)
+    key = combineKeys(key, (std::uint64_t{room.object} << 32) + room.part + 1);
   if (key_ == key) return false;
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
   const double unit = std::exp2(std::ceil(std::log2(frame.fit().farDistance)));
   const double share =
       frame.capabilities.has(device::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
-  const double minHalf = share * nearestDistance(frame.casters, frame.light.centerWorld);
-  space_ = spaceOf(scene::LightPlane(frame.light, unit, minHalf), frame.casters);
+  const double nearest = nearestDistance(frame.casters, frame.light.centerWorld);
+  space_ = spaceOf(scene::LightPlane(frame.light, unit, share * nearest), frame.casters, nearest);
   const scene::LightPlane& plane = space_.plane;
   minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;
   const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
@@ -77,7 +90,7 @@ bool LightLoops::update(const LightFrame& frame, std::span<const outlines::SubLi
     subLights_.push_back(
         outlines::loopsOf(silhouettes_[i].update(shown, plane, subLight.center.x, subLight.center.y,
                                                  minHeight_, scene::LayerSplit::alongside),
-                          casters, subLight, space_));
+                          casters, subLight, space_, seenInside));
   }
   return true;
 }

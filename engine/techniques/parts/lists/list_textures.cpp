@@ -21,6 +21,8 @@ constexpr float kLargestScale = 255.0f * 255.0f;
 /// Vertices farther from the receivers than the nearest one, as seen in i, by this factor are coded with a
 /// coarser step: what they project to is known to the same share.
 constexpr float kFineReach = 8.0f;
+/// Corners of facets on which receivers stand have fine steps, too, up to so many times the others' range.
+constexpr float kFacetReach = 32.0f;
 /// Between steps of t and of i, where vertices are coded with coarser ones.
 constexpr float kUneven = 8.0f;
 
@@ -44,8 +46,15 @@ EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) 
   const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
   Range fine;
   for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
-    // Receivers may stand on the facets of one-sided loops, off by no more than a step.
-    if (record.ti.z <= fineUpTo || record.oneSided) fine.include(record.ti);
+    if (record.ti.z <= fineUpTo) fine.include(record.ti);
+  }
+  // Receivers may stand on the facets of one-sided loops, off by no more than a step; but not where that
+  // would make the steps of all others much coarser.
+  const glm::vec3 middle = 0.5f * (fine.low + fine.high), range = fine.high - fine.low;
+  const glm::vec3 reach(kFacetReach * std::max({range.x, range.y, range.z}));
+  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
+    if (record.oneSided && glm::all(glm::lessThanEqual(glm::abs(record.ti - middle), reach)))
+      fine.include(record.ti);
   }
   EncodedLists::Placed placed;
   placed.center = 0.5f * (fine.low + fine.high);

@@ -12,10 +12,11 @@ std::string wedgePassName(const LightFrame& frame, const std::string& what) {
   return "light " + std::to_string(frame.lightIndex) + " " + what;
 }
 
-ReceiverShading screenShading(ResourceId image, float steps) {
+ReceiverShading screenShading(const LightFrame& frame, ResourceId image, float steps) {
   ReceiverShading shading;
   shading.fragmentFile = "wedge/screen_wedges.frag";
   shading.forward = false;
+  shading.mapFromWorld = heightFromWorld(frame);
   shading.textures = {{.sampler = "u_wedges", .resource = image}};
   if (steps > 0.0f) shading.defines.push_back("HS_WEDGE_SUMS");
   shading.setUniforms = [steps](gl::Program& program, gl::Context& context) {
@@ -24,8 +25,8 @@ ReceiverShading screenShading(ResourceId image, float steps) {
   return shading;
 }
 
-ReceiverShading shareShading(ResourceId image) {
-  ReceiverShading shading = screenShading(image, 0.0f);
+ReceiverShading shareShading(const LightFrame& frame, ResourceId image) {
+  ReceiverShading shading = screenShading(frame, image, 0.0f);
   shading.defines = {"HS_WEDGE_SHARES"};
   return shading;
 }

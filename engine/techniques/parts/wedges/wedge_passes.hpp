@@ -42,8 +42,8 @@ framegraph::ResourceId screenImage(const LightFrame& frame, const std::string& n
 std::vector<framegraph::Attachment> wedgeTargets(framegraph::ResourceId color, const ReceiverDepth& depth,
                                                  framegraph::InitialContent initial, float clear);
 /// Visibility from sums (`steps` > 0) or from an image of visibilities (0).
-ReceiverShading screenShading(framegraph::ResourceId image, float steps);
+ReceiverShading screenShading(const LightFrame& frame, framegraph::ResourceId image, float steps);
 /// Visibility from the covered shares of the light's four quadrants.
-ReceiverShading shareShading(framegraph::ResourceId image);
+ReceiverShading shareShading(const LightFrame& frame, framegraph::ResourceId image);
 
 }  // namespace halfshadow::techniques

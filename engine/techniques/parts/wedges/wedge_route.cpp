@@ -156,7 +156,7 @@ Result<ReceiverShading> WedgeRoutes::declareSums(const LightFrame& frame, std::s
   if (Status s = route->declareGroup(frame, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {}); !s)
     return s.error();
   // Nothing drawn reads as visibility 0.
-  return screenShading(sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
+  return screenShading(frame, sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
 }
 
 void WedgeRoutes::contextLost() {
