@@ -116,7 +116,8 @@ float halfshadow_visibility() {
 #if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
   hs_ownInSlices = true;
 #ifdef HS_CASTING_RECEIVER
-  if (u_innerSide != 0.0) hs_ownInSlices = gl_FrontFacing == (u_innerSide > 0.0);
+  // Not compared with ==: drivers differ in what a facing bit is equal to.
+  if (u_innerSide != 0.0) hs_ownInSlices = gl_FrontFacing ? u_innerSide > 0.0 : u_innerSide < 0.0;
 #endif
 #ifdef HS_LAST_RECEIVERS
   if (hs_ownInSlices) hs_ownInSlices = !hs_isLast();
