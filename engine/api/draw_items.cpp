@@ -20,6 +20,7 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
           .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
           .mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0,
+          .facetStream = object.gpu.hasFacetStream(),
           .sourceMesh = &object.mesh,
           .geometry = &object.geometry,
           .revision = object.revision};
@@ -68,6 +69,7 @@ Result<techniques::DrawItem> receiverItem(gl::Context& context, const EngineObje
   const CutReceiver& cut = object.cutReceiver;
   if (!cut.needed) return item;
   item.mesh = &cut.gpu;
+  item.facetStream = cut.gpu.hasFacetStream();
   item.sourceMesh = &cut.mesh;
   item.boundsWorld = scene::transformed(object.worldFromObject, scene::boundsOf(cut.mesh));
   item.revision = key;

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 
+#include "device/capabilities.hpp"
 #include "device/draw_state.hpp"
 #include "scene/bounds.hpp"
 #include "scene/half_edge_mesh.hpp"
@@ -30,6 +31,7 @@ struct DrawItem {
   scene::Bounds boundsWorld;
   bool closed = false;    ///< no boundary edges: from outside only front faces are seen
   bool mirrored = false;  ///< the transform turns the winding round
+  bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
   const scene::TriangleMesh* sourceMesh = nullptr;
   const scene::CasterGeometry* geometry = nullptr;
   std::uint64_t revision = 0;  ///< of mesh and transform
@@ -41,6 +43,12 @@ struct DrawItem {
 /// `nearReach`, so that no near plane opens them. Halves rasterisation, which is most of the cost of dense
 /// meshes.
 device::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach = 0.0);
+
+/// True where receivers need facet normals as a vertex attribute: no derivatives, or none precise enough.
+bool needsFacetStream(const device::Capabilities& capabilities);
+
+/// Few enough to look at each of them in each frame.
+bool hasFewTriangles(const DrawItem& item);
 
 /// The faces on the other side.
 device::Cull turnedRound(device::Cull faces);

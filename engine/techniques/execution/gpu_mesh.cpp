@@ -50,10 +50,6 @@ Status refresh(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target
 }
 }  // namespace
 
-bool needsFacetStream(const device::Capabilities& capabilities) {
-  return !capabilities.has(device::Capability::derivatives) || !capabilities.has(device::Capability::highp);
-}
-
 void GpuMesh::split(const scene::TriangleMesh& mesh, bool wideIndices) {
   if (wideIndices || mesh.positions.size() <= kShortIndexVertices) {
     sourceVertex_.resize(mesh.positions.size());

@@ -9,11 +9,9 @@
 
 #include "gl/encoder.hpp"
 #include "scene/mesh.hpp"
+#include "techniques/core/draw_item.hpp"
 
 namespace halfshadow::techniques {
-
-/// True where receivers need facet normals as a vertex attribute: no derivatives, or none precise enough.
-bool needsFacetStream(const device::Capabilities& capabilities);
 
 /// Streams of one mesh: positions (12 bytes a vertex) with indices; normals and texture coordinates where the
 /// source has them (read by shading only); and a facet stream (position and facet normal, 24 bytes, three

@@ -43,8 +43,6 @@ Result<DepthPrograms> depthPrograms(const LightFrame& frame, ReceiverAlpha alpha
   return programs;
 }
 
-constexpr std::uint32_t kFewTriangles = 256;
-
 glm::dvec4 row(const glm::dmat4& m, int index) {
   return {m[0][index], m[1][index], m[2][index], m[3][index]};
 }
@@ -144,10 +142,6 @@ void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs,
   }
 }
 }  // namespace
-
-bool hasFewTriangles(const DrawItem& receiver) {
-  return receiver.sourceMesh->triangleCount() <= kFewTriangles;
-}
 
 Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha) {
   const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";

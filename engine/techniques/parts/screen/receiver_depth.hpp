@@ -9,9 +9,6 @@
 
 namespace halfshadow::techniques {
 
-/// Receivers that a technique may treat triangle by triangle on the CPU, a floor for instance.
-bool hasFewTriangles(const DrawItem& receiver);
-
 struct ReceiverDepth {
   /// RGB: distance along the view axis less `nearest`, over `farthest`, a number of 5 bits of exponent and 19
   /// of mantissa: near surfaces are as exact before a wide ground as without it. A: ReceiverAlpha, 0 where
