@@ -11,7 +11,8 @@
 namespace halfshadow::api {
 
 techniques::DrawItem drawItem(const EngineObject& object) {
-  return {.mesh = &object.gpu,
+  return {.object = object.id,
+          .mesh = &object.gpu,
           .casts = object.casts,
           .receives = object.receives,
           .worldFromObject = object.worldFromObject,

@@ -96,7 +96,6 @@ Engine::~Engine() {
 
 void Engine::contextLost() {
   state_->context->markLost();
-  for (const auto& technique : state_->techniques) technique->contextLost();
 }
 
 int Engine::liveObjectCount() const {

@@ -8,7 +8,6 @@
 #include "api/receiver_reach.hpp"
 #include "base/keys.hpp"
 #include "planner/light_reach.hpp"
-#include "techniques/execution/light_frame.hpp"
 
 namespace halfshadow {
 namespace {
@@ -182,14 +181,7 @@ Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePa
   LightCache& cache = lightCaches[index];
   if (cache.passesOf != &used) {
     cache.passesOf = &used;
-    auto lightPlanner = used.newPlanner();
-    cache.passes =
-        lightPlanner ? std::make_unique<techniques::LightPasses>(std::move(lightPlanner)) : nullptr;
-  }
-  if (!cache.passes) {
-    const techniques::LightFrame lightFrame(scene, *context, *programs, passes.graph,
-                                            static_cast<int>(index));
-    return used.declare(lightFrame);
+    cache.passes = std::make_unique<techniques::LightPasses>(used.newPlanner());
   }
   techniques::Device device{*context, *programs, shared};
   if (Status s = cache.passes->prepare(scene); !s) return s.error();

@@ -107,6 +107,7 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   object.baseColor = glm::make_vec4(desc.baseColor);
   object.revision = state.nextRevision++;
   id = state.nextId++;
+  object.id = id;
   state.objects.emplace(id, std::move(object));
   return {};
 }

@@ -35,6 +35,7 @@ struct CutReceiver {
 };
 
 struct EngineObject {
+  ObjectId id = 0;
   scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
   scene::CasterGeometry geometry;
   techniques::GpuMesh gpu;
@@ -63,7 +64,7 @@ struct LightCache {
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFit fit;
   const techniques::Technique* passesOf = nullptr;
-  std::unique_ptr<techniques::LightPasses> passes;  ///< null where that technique has no planner
+  std::unique_ptr<techniques::LightPasses> passes;
 };
 
 /// Strings and arrays that a FrameReport points to.

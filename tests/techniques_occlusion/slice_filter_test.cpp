@@ -40,7 +40,7 @@ class FilterPlanner final : public LightPlanner {
                        .mipmapped = mipmap});
     const std::uint32_t source = plan.addTexture(
         {.name = "source", .desc = {.width = size_, .height = size_}, .key = 1, .pixels = [this] {
-           return source_;
+           return std::make_shared<const Pixels>(source_);
          }});
     PlannedPass pass{
         .name = "slices", .stage = framegraph::PassStage::light, .writes = {{.resource = slices}}};

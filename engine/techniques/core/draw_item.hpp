@@ -22,6 +22,7 @@ class GpuMesh;
 
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
+  std::uint64_t object = 0;  ///< its id in the scene
   const GpuMesh* mesh = nullptr;
   bool casts = true;  ///< of receivers: it is among the casters of some light in this frame
   bool receives = true;
@@ -29,8 +30,8 @@ struct DrawItem {
   glm::vec4 baseColor{1.0f};
   const gl::Texture* baseColorTexture = nullptr;
   scene::Bounds boundsWorld;
-  bool closed = false;    ///< no boundary edges: from outside only front faces are seen
-  bool mirrored = false;  ///< the transform turns the winding round
+  bool closed = false;       ///< no boundary edges: from outside only front faces are seen
+  bool mirrored = false;     ///< the transform turns the winding round
   bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
   const scene::TriangleMesh* sourceMesh = nullptr;
   const scene::CasterGeometry* geometry = nullptr;

@@ -27,7 +27,7 @@ std::span<const scene::PlacedCaster> placedCasters(const LightScene& scene) {
 }
 
 std::uint32_t placedCasterOf(const LightScene& scene, const DrawItem& receiver) {
-  const auto found = std::ranges::find(scene.casters, receiver.geometry, &DrawItem::geometry);
+  const auto found = std::ranges::find(scene.casters, receiver.object, &DrawItem::object);
   if (found == scene.casters.end()) return kNoCaster;
   placedCasters(scene);
   return scene.groups.placedOf(static_cast<std::size_t>(found - scene.casters.begin()));

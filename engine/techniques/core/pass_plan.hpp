@@ -101,12 +101,13 @@ struct PlannedPass {
 };
 
 /// A texture of the technique's own. Uploaded when its key changes.
+using Pixels = std::shared_ptr<const std::vector<std::uint8_t>>;
 struct PlannedTexture {
   std::string name;
   device::TextureDesc desc;
-  std::uint64_t key = 0;      ///< of its content; never 0
-  bool forAllLights = false;  ///< a constant: uploaded once under this name
-  std::function<std::vector<std::uint8_t>()> pixels;
+  std::uint64_t key = 0;           ///< of its content; never 0
+  bool forAllLights = false;       ///< a constant: uploaded once under this name
+  std::function<Pixels()> pixels;  ///< called when they are uploaded
 };
 
 /// Vertices or indices. Uploaded when its key changes.
@@ -126,6 +127,8 @@ struct PassPlan {
   std::vector<PlannedBuffer> buffers;
   std::vector<framegraph::Graph::Skipped> notes;  ///< what was not done, with its reason
   ReceiverShading shading;                        ///< its resources are indices into `images`
+
+  void note(std::string what, std::string why) { notes.push_back({std::move(what), std::move(why)}); }
 
   std::uint32_t addProgram(device::ProgramVariant variant);  ///< once each
   framegraph::ResourceId addImage(framegraph::ResourceDesc desc);

@@ -14,11 +14,6 @@
 #include "framegraph/graph.hpp"
 #include "techniques/core/draw_item.hpp"
 
-namespace halfshadow::gl {
-class Context;
-class Program;
-}  // namespace halfshadow::gl
-
 namespace halfshadow::techniques {
 
 /// A sampler of a program and what it reads: an image of the frame, or a texture of the technique's own.
@@ -56,9 +51,6 @@ struct ReceiverShading {
   /// With SelfReceivers::casting, receivers of these meshes too, though they cast nothing themselves.
   std::vector<const GpuMesh*> alsoCasting;
   bool forward = true;  ///< may be evaluated inside a host's own fragment shader
-  // Of techniques whose passes are not plans yet.
-  std::function<void(gl::Program&, gl::Context&)> setUniforms;
-  std::function<void(gl::Program&, gl::Context&, const DrawItem&)> setItemUniforms;
 };
 
 enum class ReceiverOutput {

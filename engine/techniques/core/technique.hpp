@@ -30,8 +30,6 @@ struct Support {
   std::string reason;  ///< the missing capability by name, and what would provide it
 };
 
-struct LightFrame;
-
 class Technique {
  public:
   virtual ~Technique() = default;
@@ -47,14 +45,8 @@ class Technique {
     (void)scene;
     return std::nullopt;
   }
-  /// For a light that takes this technique; the engine keeps it beside the light. Null: declare() is used.
-  virtual std::unique_ptr<LightPlanner> newPlanner() const { return nullptr; }
-
-  /// Of techniques without planner: adds light, mask and screen passes to the graph and says how receivers
-  /// consume them.
-  virtual Result<ReceiverShading> declare(const LightFrame& frame);
-  /// The context is gone: forget all GL objects.
-  virtual void contextLost() {}
+  /// For a light that takes this technique; the engine keeps it beside the light.
+  virtual std::unique_ptr<LightPlanner> newPlanner() const = 0;
 };
 
 }  // namespace halfshadow::techniques

@@ -124,10 +124,16 @@ Status LightPasses::uploadTextures(Device& device) {
     }
     OwnTexture& own = textures_[planned.name];
     if (own.key != planned.key) {
-      own = {};
-      auto made = gl::Texture::create(device.context, planned.desc, planned.pixels().data());
-      if (!made) return made.error();
-      own = {planned.key, std::move(made).value()};
+      own.key = 0;
+      const Pixels pixels = planned.pixels();
+      if (own.texture && own.texture.desc() == planned.desc) {
+        own.texture.update(device.context, 0, 0, planned.desc.width, planned.desc.height, pixels->data());
+      } else {
+        auto made = gl::Texture::create(device.context, planned.desc, pixels->data());
+        if (!made) return made.error();
+        own.texture = std::move(made).value();
+      }
+      own.key = planned.key;
     }
     texturesOfPlan_.push_back(&own.texture);
   }

@@ -74,7 +74,6 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
     shading.itemUniforms(item, uniforms);
     program.set(gl, uniforms);
   }
-  if (shading.setItemUniforms) shading.setItemUniforms(program, gl, item);
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front()->centerWorld, 0.0);
@@ -87,7 +86,6 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
                       const gl::Rect& viewport, const ShadingInputs* inputs) {
   program.set(gl, shading.uniforms);
-  if (shading.setUniforms) shading.setUniforms(program, gl);
   const glm::vec2 scale(1.0f / static_cast<float>(viewport.width),
                         1.0f / static_cast<float>(viewport.height));
   program.set(gl, "u_viewport", glm::vec4(scale, -scale * glm::vec2(viewport.x, viewport.y)));
@@ -244,7 +242,6 @@ void bindForward(gl::Context& context, gl::Program& program, const ReceiverShadi
                  const glm::dmat4& worldFromObject, int firstTextureUnit,
                  const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf) {
   program.set(context, shading.uniforms);
-  if (shading.setUniforms) shading.setUniforms(program, context);
   setMapUniforms(context, program, shading, worldFromObject, needsFacetStream(context.capabilities()));
   int unit = firstTextureUnit;
   for (const TextureRead& texture : shading.textures) {

@@ -7,7 +7,7 @@ namespace halfshadow::techniques {
 Result<const gl::Texture*> SharedTextures::get(gl::Context& context, const PlannedTexture& planned) {
   gl::Texture& texture = textures_[planned.name];
   if (!texture) {
-    auto made = gl::Texture::create(context, planned.desc, planned.pixels().data());
+    auto made = gl::Texture::create(context, planned.desc, planned.pixels()->data());
     if (!made) return made.error();
     texture = std::move(made).value();
   }

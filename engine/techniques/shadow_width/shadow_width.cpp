@@ -199,7 +199,10 @@ class ShadowWidth final : public Technique {
                                      .format = device::TextureFormat::luminance8,
                                      .filter = device::TextureFilter::linear},
                             .key = combineKeys(bits(constants.scale), bits(constants.bias)),
-                            .pixels = [constants] { return attenuationTable(constants); }});
+                            .pixels = [constants] {
+                              return std::make_shared<const std::vector<std::uint8_t>>(
+                                  attenuationTable(constants));
+                            }});
   }
 };
 }  // namespace

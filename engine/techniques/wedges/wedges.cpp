@@ -12,30 +12,18 @@ using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
 
-/// Receivers among the surfaces of one caster, which wedges of its silhouette do not shadow.
-class OwnReceivers {
- public:
-  explicit OwnReceivers(std::string tilesKey) : tilesKey_(std::move(tilesKey)) {}
-  SettingInfo setting() const {
-    return {tilesKey_,
-            SettingType::integer,
-            "128",
-            1,
-            kMaxTiles,
-            {},
-            "tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
-            "the surfaces of casters that are not convex"};
-  }
-  Result<ReceiverShading> addTo(Result<ReceiverShading> shading, const LightFrame& frame) {
-    return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], tilesKey_,
-                            {&outlines::kWholeLight, 1}, OwnSurfaces::hollow);
-  }
-  void contextLost() { lists_.clear(); }
-
- private:
-  std::string tilesKey_;
-  std::map<int, LightLists> lists_;
-};
+/// Tiles of the lists for receivers among the surfaces of one caster, which wedges of its silhouette do not
+/// shadow.
+SettingInfo tilesSetting(const std::string& key) {
+  return {key,
+          SettingType::integer,
+          "128",
+          1,
+          kMaxTiles,
+          {},
+          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
+          "the surfaces of casters that are not convex"};
+}
 
 WedgeGroup castersWhere(const outlines::WedgePieces& pieces, auto predicate) {
   WedgeGroup group;
@@ -63,6 +51,82 @@ std::vector<WedgeGroup> wholeThenBatches(const outlines::WedgePieces& pieces) {
   return groups;
 }
 
+class AdditivePlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    routes_.planSums(scene, plan, scene.settings.choice("wedges.route"));
+    return addOwnReceivers(scene, plan, lists_, "wedges.tiles", {&outlines::kWholeLight, 1},
+                           OwnSurfaces::hollow);
+  }
+
+ private:
+  WedgeRoutes routes_;
+  LightLists lists_;
+};
+
+class ProbabilisticPlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    WedgeRoute route =
+        routes_.choose(scene, plan, scene.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
+    const WedgeVolumes& volumes = route.volumes();
+    const ResourceId visibility = screenImage(scene, plan, "wedge visibility");
+    const GroupTarget whole{
+        .color = visibility, .clear = volumes.lightEnclosed ? 0.0f : 1.0f, .mix = WedgeMix::multiply};
+    route.addGroup(scene, plan, 0, "wedges of whole casters", whole, {});
+    if (volumes.pieces.batchCount > 0 && !volumes.lightEnclosed) {
+      const ResourceId sums = screenImage(scene, plan, "wedge sums");
+      for (std::uint32_t batch = 0; batch < volumes.pieces.batchCount; ++batch) {
+        const char* again = batch > 0 ? "casters of different batches may shadow the same receiver" : "";
+        route.addGroup(scene, plan, batch + 1, "wedges of batch " + std::to_string(batch),
+                       {.color = sums, .steps = kStepsOfOne}, again);
+        addMerge(scene, plan, volumes, batch, sums, visibility);
+      }
+    }
+    plan.shading = screenShading(scene, visibility, 0.0f);
+    return addOwnReceivers(scene, plan, lists_, "wedges-probabilistic.tiles", {&outlines::kWholeLight, 1},
+                           OwnSurfaces::hollow);
+  }
+
+ private:
+  /// What the batch's casters can shadow on the screen.
+  static std::vector<Rect> touched(const LightScene& scene, const WedgeVolumes& volumes,
+                                   std::uint32_t batch) {
+    const View& view = scene.screen;
+    const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
+    std::vector<Rect> rects;
+    for (const outlines::WedgeCaster& caster : volumes.pieces.casters) {
+      if (caster.pieceCount < 2 || caster.batch != batch) continue;
+      const auto corners = outlines::volumeHull(caster.extent, caster.extent.nearest, volumes.end());
+      if (const auto rect = outlines::screenBounds(corners, clipFromLight, view.width, view.height))
+        rects.push_back(*rect);
+    }
+    return outlines::disjointRects(std::move(rects));
+  }
+
+  static void addMerge(const LightScene& scene, PassPlan& plan, const WedgeVolumes& volumes,
+                       std::uint32_t batch, ResourceId sums, ResourceId visibility) {
+    PlannedPass multiply{
+        .name = scene.name + " visibility of batch " + std::to_string(batch),
+        .stage = framegraph::PassStage::receiverPrepass,
+        .writes = {
+            {.resource = visibility, .point = AttachmentPoint::color, .initial = InitialContent::keep}}};
+    multiply.rebindReason = "one batch at a time is added up; all of them would not fit in memory";
+    for (const Rect& rect : touched(scene, volumes, batch)) {
+      PlannedDraw draw{.program = plan.addProgram({"screen/fullscreen.vert", "wedge/wedge_merge.frag", {}}),
+                       .textures = {{.sampler = "u_sums", .resource = sums}}};
+      draw.uniforms.set("u_wedgeSteps", glm::vec4(kStepsOfOne, 0, 0, 0));
+      draw.state.blend = kMultiply;
+      draw.state.scissor = rect;
+      multiply.draws.push_back(std::move(draw));
+    }
+    plan.passes.push_back(std::move(multiply));
+  }
+
+  WedgeRoutes routes_;
+  LightLists lists_;
+};
+
 class AdditiveWedges final : public Technique {
  public:
   const TechniqueInfo& info() const override {
@@ -77,21 +141,11 @@ class AdditiveWedges final : public Technique {
             "up"};
     return info;
   }
-  std::optional<StandIn> standIn(const LightScene& frame) const override { return standInForRooms(frame); }
+  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
   std::vector<SettingInfo> settings() const override {
-    return {routeSetting("wedges.route"), own_.setting()};
+    return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    return own_.addTo(routes_.declareSums(frame, frame.settings.choice("wedges.route")), frame);
-  }
-  void contextLost() override {
-    routes_.contextLost();
-    own_.contextLost();
-  }
-
- private:
-  WedgeRoutes routes_;
-  OwnReceivers own_{"wedges.tiles"};
+  std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
 class ProbabilisticWedges final : public Technique {
@@ -108,79 +162,13 @@ class ProbabilisticWedges final : public Technique {
             "within a quadrant add up"};
     return info;
   }
-  std::optional<StandIn> standIn(const LightScene& frame) const override { return standInForRooms(frame); }
+  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
   std::vector<SettingInfo> settings() const override {
-    return {routeSetting("wedges-probabilistic.route"), own_.setting()};
+    return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    auto route = routes_.choose(frame, frame.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
-    if (!route) return route.error();
-    const WedgeVolumes& volumes = route->volumes();
-    const ResourceId visibility = screenImage(frame, "wedge visibility");
-    const GroupTarget whole{
-        .color = visibility, .clear = volumes.lightEnclosed ? 0.0f : 1.0f, .mix = WedgeMix::multiply};
-    if (Status s = route->declareGroup(frame, 0, "wedges of whole casters", whole, {}); !s) return s.error();
-    if (volumes.pieces.batchCount > 0 && !volumes.lightEnclosed) {
-      const ResourceId sums = screenImage(frame, "wedge sums");
-      for (std::uint32_t batch = 0; batch < volumes.pieces.batchCount; ++batch) {
-        const char* again = batch > 0 ? "casters of different batches may shadow the same receiver" : "";
-        if (Status s = route->declareGroup(frame, batch + 1, "wedges of batch " + std::to_string(batch),
-                                           {.color = sums, .steps = kStepsOfOne}, again);
-            !s) {
-          return s.error();
-        }
-        if (Status s = declareMerge(frame, volumes, batch, sums, visibility); !s) return s.error();
-      }
-    }
-    return own_.addTo(screenShading(frame, visibility, 0.0f), frame);
+  std::unique_ptr<LightPlanner> newPlanner() const override {
+    return std::make_unique<ProbabilisticPlanner>();
   }
-  void contextLost() override {
-    routes_.contextLost();
-    own_.contextLost();
-  }
-
- private:
-  /// What the batch's casters can shadow on the screen.
-  static std::vector<gl::Rect> touched(const LightFrame& frame, const WedgeVolumes& volumes,
-                                       std::uint32_t batch) {
-    const View& view = frame.screen;
-    const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
-    std::vector<gl::Rect> rects;
-    for (const outlines::WedgeCaster& caster : volumes.pieces.casters) {
-      if (caster.pieceCount < 2 || caster.batch != batch) continue;
-      const auto corners = outlines::volumeHull(caster.extent, caster.extent.nearest, volumes.end());
-      if (const auto rect = outlines::screenBounds(corners, clipFromLight, view.width, view.height))
-        rects.push_back(*rect);
-    }
-    return outlines::disjointRects(std::move(rects));
-  }
-
-  static Status declareMerge(const LightFrame& frame, const WedgeVolumes& volumes, std::uint32_t batch,
-                             ResourceId sums, ResourceId visibility) {
-    auto merge = frame.programs.get({"screen/fullscreen.vert", "wedge/wedge_merge.frag", {}});
-    if (!merge) return merge.error();
-    framegraph::PassDesc multiply{
-        .name = wedgePassName(frame, "visibility of batch " + std::to_string(batch)),
-        .stage = framegraph::PassStage::receiverPrepass,
-        .reads = {sums},
-        .writes = {
-            {.resource = visibility, .point = AttachmentPoint::color, .initial = InitialContent::keep}}};
-    multiply.rebindReason = "one batch at a time is added up; all of them would not fit in memory";
-    multiply.execute = [program = *merge, sums,
-                        rects = touched(frame, volumes, batch)](framegraph::PassContext& context) {
-      gl::Encoder& encoder = context.encoder;
-      encoder.useProgram(*program);
-      program->set(encoder.context(), "u_wedgeSteps", glm::vec4(kStepsOfOne, 0, 0, 0));
-      const gl::TextureBinding binding{program->samplerUnit("u_sums"), &context.texture(sums)};
-      encoder.bindTextures({&binding, 1});
-      for (const gl::Rect& rect : rects) encoder.drawFullscreen({.blend = kMultiply, .scissor = rect});
-    };
-    frame.graph.addPass(std::move(multiply));
-    return {};
-  }
-
-  WedgeRoutes routes_;
-  OwnReceivers own_{"wedges-probabilistic.tiles"};
 };
 }  // namespace
 

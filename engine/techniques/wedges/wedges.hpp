@@ -4,7 +4,7 @@
 /// Penumbra wedges, added over all casters or combined as independent occluders.
 #pragma once
 
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/technique.hpp"
 
 namespace halfshadow::techniques {
 

@@ -12,51 +12,44 @@ using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
 
-constexpr gl::BlendState kLargest{.enabled = true,
-                                  .equation = gl::BlendEquation::max,
-                                  .source = gl::BlendFactor::one,
-                                  .destination = gl::BlendFactor::one};
+constexpr device::BlendState kLargest{.enabled = true,
+                                      .equation = device::BlendEquation::max,
+                                      .source = device::BlendFactor::one,
+                                      .destination = device::BlendFactor::one};
 using Reads = std::vector<TextureRead>;
 
-/// Declares the passes of one light, batch by batch.
+/// Plans the passes of one light, batch by batch.
 class VbufferPasses {
  public:
-  VbufferPasses(const LightFrame& frame, const CasterDraws& draws, const ReceiverDepth& depth,
+  VbufferPasses(const LightScene& scene, PassPlan& plan, const CasterDraws& draws, const ReceiverDepth& depth,
                 const VbufferRequest& request)
-      : frame_(frame), draws_(draws), depth_(depth), request_(request) {
-    share_ = screenImage(frame, "vBuffer shares");
+      : scene_(scene), plan_(plan), draws_(draws), depth_(depth), request_(request) {
+    share_ = screenImage(scene, plan, "vBuffer shares");
     if (draws.batchCount() < 2) return;
-    both_ = screenImage(frame, "vBuffer overlap");
-    for (int q = 0; q < 4; ++q) sides_[q] = screenImage(frame, "vBuffer sides " + std::to_string(q));
-    if (request.merge == SideMerge::core) excess_ = screenImage(frame, "vBuffer excess of sides");
+    both_ = screenImage(scene, plan, "vBuffer overlap");
+    for (int q = 0; q < 4; ++q) sides_[q] = screenImage(scene, plan, "vBuffer sides " + std::to_string(q));
+    if (request.merge == SideMerge::core) excess_ = screenImage(scene, plan, "vBuffer excess of sides");
     if (!request.centres) return;
     // Two of each, read and written in turn.
     for (int axis = 0; axis < 2; ++axis) {
       for (int turn = 0; turn < (request.merge == SideMerge::fetch ? 1 : 2); ++turn) {
         centres_[axis][turn] =
-            screenImage(frame, "vBuffer centres " + std::to_string(axis) + (turn ? " in turn" : ""));
+            screenImage(scene, plan, "vBuffer centres " + std::to_string(axis) + (turn ? " in turn" : ""));
       }
     }
   }
   ResourceId share() const { return share_; }
 
-  Status declare() {
+  void addPasses() {
     const std::uint32_t batches = std::max(draws_.batchCount(), 1u);
     for (std::uint32_t batch = 0; batch < batches; ++batch) {
-      if (batch > 0) {
-        if (Status s = findOverlap(batch); !s) return s;
-      }
+      if (batch > 0) findOverlap(batch);
       // Nothing is blended with the last batch. Centres are weighed by the shares before.
       const bool last = batch + 1 == batches;
-      for (int axis = 0; axis < (request_.centres && !last ? 2 : 0); ++axis) {
-        if (Status s = mergeCentres(batch, axis); !s) return s;
-      }
-      if (Status s = mergeShare(batch); !s) return s;
-      for (int quadrant = 0; quadrant < (last ? 0 : 4); ++quadrant) {
-        if (Status s = mergeSides(batch, quadrant); !s) return s;
-      }
+      for (int axis = 0; axis < (request_.centres && !last ? 2 : 0); ++axis) mergeCentres(batch, axis);
+      mergeShare(batch);
+      for (int quadrant = 0; quadrant < (last ? 0 : 4); ++quadrant) mergeSides(batch, quadrant);
     }
-    return {};
   }
 
  private:
@@ -66,7 +59,7 @@ class VbufferPasses {
     ResourceId target;
     std::uint32_t batch = 0;
     std::vector<std::string> defines;
-    gl::BlendState blend;
+    device::BlendState blend;
     Reads reads;
     InitialContent initial = InitialContent::keep;  ///< the first batch clears
     float clear = 0.0f;
@@ -87,7 +80,7 @@ class VbufferPasses {
     return centres_[axis][request_.merge == SideMerge::fetch ? 0 : batch % 2];
   }
 
-  Status findOverlap(std::uint32_t batch) {
+  void findOverlap(std::uint32_t batch) {
     Pass pass{.name = "overlap",
               .target = both_,
               .batch = batch,
@@ -101,10 +94,10 @@ class VbufferPasses {
       pass.reads.push_back({.sampler = "u_centreX", .resource = centres(0, batch - 1)});
       pass.reads.push_back({.sampler = "u_centreY", .resource = centres(1, batch - 1)});
     }
-    return add(pass);
+    add(pass);
   }
 
-  Status mergeShare(std::uint32_t batch) {
+  void mergeShare(std::uint32_t batch) {
     Pass pass{.name = "shares",
               .target = share_,
               .batch = batch,
@@ -116,10 +109,10 @@ class VbufferPasses {
       pass.reads = {{.sampler = "u_both", .resource = both_}};
     }
     if (draws_.lightEnclosed(0)) pass.clear = 1.0f;
-    return add(pass);
+    add(pass);
   }
 
-  Status mergeCentres(std::uint32_t batch, int axis) {
+  void mergeCentres(std::uint32_t batch, int axis) {
     Pass pass{.name = "centres " + std::to_string(axis),
               .target = centres(axis, batch),
               .batch = batch,
@@ -127,13 +120,17 @@ class VbufferPasses {
               .blend = {},
               .reads = {},
               .clear = 0.5f};
-    if (batch == 0) return add(pass);
+    if (batch == 0) {
+      add(pass);
+      return;
+    }
     pass.defines.push_back("HS_MERGED");
     pass.reads = sideReads();
     pass.reads.push_back({.sampler = "u_both", .resource = both_});
     if (request_.merge == SideMerge::fetch) {
       pass.defines.push_back("HS_USE_FETCH");
-      return add(pass);
+      add(pass);
+      return;
     }
     pass.halves = true;
     pass.copied = centres(axis, batch - 1);
@@ -143,56 +140,52 @@ class VbufferPasses {
     } else {
       pass.reads.push_back({.sampler = "u_centreY", .resource = pass.copied});
     }
-    return add(pass);
+    add(pass);
   }
 
-  Status mergeSides(std::uint32_t batch, int quadrant) {
+  void mergeSides(std::uint32_t batch, int quadrant) {
     const std::string name = "sides " + std::to_string(quadrant);
     std::vector<std::string> defines = {"HS_BLEND 2", "HS_QUADRANT " + std::to_string(quadrant)};
     if (request_.merge == SideMerge::fetch) defines.push_back("HS_USE_FETCH");
     // Casters of the first batch meet nothing: adding is uniting.
-    const gl::BlendState blend = request_.merge == SideMerge::minmax ? kLargest
-                                 : request_.merge == SideMerge::core ? kAdd
-                                                                     : gl::BlendState{};
+    const device::BlendState blend = request_.merge == SideMerge::minmax ? kLargest
+                                     : request_.merge == SideMerge::core ? kAdd
+                                                                         : device::BlendState{};
     Pass pass{.name = name,
               .target = sides_[quadrant],
               .batch = batch,
               .defines = defines,
               .blend = blend,
               .reads = {}};
-    if (request_.merge != SideMerge::core || batch == 0) return add(pass);
+    if (request_.merge != SideMerge::core || batch == 0) {
+      add(pass);
+      return;
+    }
     pass.name += " excess";
     pass.target = excess_;
     pass.defines.push_back("HS_MERGED");
     pass.reads = {{.sampler = "u_sides0", .resource = sides_[quadrant]}};
     pass.initial = InitialContent::clear;
-    if (Status s = add(pass); !s) return s;
-    return addExcess(name, sides_[quadrant], batch);
+    add(pass);
+    addExcess(name, sides_[quadrant], batch);
   }
 
-  Status addExcess(const std::string& name, ResourceId target, std::uint32_t batch) {
-    auto program = frame_.programs.get({"screen/fullscreen.vert", "list/vbuffer_add.frag", {}});
-    if (!program) return program.error();
-    framegraph::PassDesc pass = describe(name, target, batch);
-    pass.reads = {excess_};
+  void addExcess(const std::string& name, ResourceId target, std::uint32_t batch) {
+    PlannedPass pass = describe(name, target, batch);
     pass.writes = {{.resource = target, .point = AttachmentPoint::color, .initial = InitialContent::keep}};
-    pass.execute = [program = *program, excess = excess_](framegraph::PassContext& context) {
-      drawImage(context, *program, excess, kAdd);
-    };
-    frame_.graph.addPass(std::move(pass));
-    return {};
+    pass.draws.push_back(imageDraw(excess_, kAdd));
+    plan_.passes.push_back(std::move(pass));
   }
 
-  static void drawImage(framegraph::PassContext& context, gl::Program& program, ResourceId image,
-                        const gl::BlendState& blend) {
-    context.encoder.useProgram(program);
-    const gl::TextureBinding binding{program.samplerUnit("u_source"), &context.texture(image)};
-    context.encoder.bindTextures({&binding, 1});
-    context.encoder.drawFullscreen({.blend = blend});
+  PlannedDraw imageDraw(ResourceId image, const device::BlendState& blend) {
+    PlannedDraw draw{.program = plan_.addProgram({"screen/fullscreen.vert", "list/vbuffer_add.frag", {}}),
+                     .textures = {{.sampler = "u_source", .resource = image}}};
+    draw.state.blend = blend;
+    return draw;
   }
 
-  framegraph::PassDesc describe(const std::string& name, ResourceId target, std::uint32_t batch) const {
-    return {.name = wedgePassName(frame_, name + " of batch " + std::to_string(batch)),
+  PlannedPass describe(const std::string& name, ResourceId target, std::uint32_t batch) const {
+    return {.name = scene_.name + " " + name + " of batch " + std::to_string(batch),
             .stage = framegraph::PassStage::receiverPrepass,
             .rebindReason = target == excess_ ? "one target serves the rectangles of all quadrants"
                             : batch > 0       ? "casters of different batches may shadow the same receiver"
@@ -210,11 +203,9 @@ class VbufferPasses {
     return reads;
   }
 
-  Status add(Pass request) {
+  void add(Pass request) {
     if (request.halves) request.defines.push_back("HS_HALVES");
-    framegraph::PassDesc pass = describe(request.name, request.target, request.batch);
-    pass.reads = {depth_.packed};
-    for (const TextureRead& read : request.reads) pass.reads.push_back(read.resource);
+    PlannedPass pass = describe(request.name, request.target, request.batch);
     framegraph::ClearValue clear;
     std::fill_n(clear.color, 4, request.clear);
     pass.writes = {
@@ -223,37 +214,27 @@ class VbufferPasses {
          .initial = request.batch == 0 ? InitialContent::clear : request.initial,
          .clear = clear},
         {.resource = depth_.depthTest, .point = AttachmentPoint::depth, .initial = InitialContent::keep}};
-    auto programs = casterPrograms(frame_, "list/caster_blend.frag", request.defines);
-    if (!programs) return programs.error();
-    gl::Program* copy = nullptr;
-    if (request.copied.valid()) {
-      auto linked = frame_.programs.get({"screen/fullscreen.vert", "list/vbuffer_add.frag", {}});
-      if (!linked) return linked.error();
-      copy = *linked;
-    }
-    pass.execute = [programs = *programs, copy, &draws = draws_, depth = depth_, &view = frame_.screen,
-                    request, second = secondHalf(request.reads, sides_)](framegraph::PassContext& context) {
-      if (copy) drawImage(context, *copy, request.copied, {});
-      const auto draw = [&](const Reads& reads, const std::array<bool, 4>& quadrants) {
-        const auto bind = [&](gl::Program& program) {
-          for (const TextureRead& read : reads) {
-            const gl::TextureBinding binding{program.samplerUnit(read.sampler),
-                                             &context.texture(read.resource)};
-            context.encoder.bindTextures({&binding, 1});
-          }
-        };
-        draws.draw(context, programs, depth, view,
-                   {.batch = request.batch, .blend = request.blend, .colorMask = quadrants, .prepare = bind});
-      };
-      if (!request.halves) return draw(request.reads, {true, true, true, true});
-      draw(request.reads, {true, true, false, false});
-      draw(second, {false, false, true, true});
+    if (request.copied.valid()) pass.draws.push_back(imageDraw(request.copied, {}));
+    const auto draw = [&](const Reads& reads, const std::array<bool, 4>& quadrants) {
+      draws_.addDraws(scene_, plan_, pass, depth_,
+                      {.batch = request.batch,
+                       .fragmentFile = "list/caster_blend.frag",
+                       .defines = request.defines,
+                       .blend = request.blend,
+                       .colorMask = quadrants,
+                       .textures = reads});
     };
-    frame_.graph.addPass(std::move(pass));
-    return {};
+    if (!request.halves) {
+      draw(request.reads, {true, true, true, true});
+    } else {
+      draw(request.reads, {true, true, false, false});
+      draw(secondHalf(request.reads, sides_), {false, false, true, true});
+    }
+    plan_.passes.push_back(std::move(pass));
   }
 
-  const LightFrame& frame_;
+  const LightScene& scene_;
+  PassPlan& plan_;
   const CasterDraws& draws_;
   ReceiverDepth depth_;
   VbufferRequest request_;
@@ -262,14 +243,14 @@ class VbufferPasses {
 };
 }  // namespace
 
-Result<ReceiverShading> declareVbufferTargets(const LightFrame& frame, CasterDraws& draws,
-                                              const VbufferRequest& request) {
-  if (Status s = draws.update(frame, {&outlines::kWholeLight, 1}, Batching::disjoint); !s) return s.error();
-  auto depth = declareReceiverDepth(frame, ReceiverAlpha::facets);
-  if (!depth) return depth.error();
-  VbufferPasses passes(frame, draws, *depth, request);
-  if (Status s = passes.declare(); !s) return s.error();
-  return shareShading(frame, passes.share());
+Status planVbufferTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws,
+                          const VbufferRequest& request) {
+  if (Status s = draws.update(scene, plan, {&outlines::kWholeLight, 1}, Batching::disjoint); !s) return s;
+  const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::facets);
+  VbufferPasses passes(scene, plan, draws, depth, request);
+  passes.addPasses();
+  plan.shading = shareShading(scene, passes.share());
+  return {};
 }
 
 }  // namespace halfshadow::techniques

@@ -21,9 +21,9 @@ struct VbufferRequest {
   bool centres = false;  ///< of gravity
 };
 
-/// Casters that cannot meet are merged together, a batch in one draw a target. The passes refer to `draws`.
-/// Based on: Forest, Barthe, Paulin 2006, section 4. Errors: shaderFailed, outOfMemory.
-Result<ReceiverShading> declareVbufferTargets(const LightFrame& frame, CasterDraws& draws,
-                                              const VbufferRequest& request);
+/// Casters that cannot meet are merged together, a batch in one draw a target. Makes the plan's shading.
+/// Based on: Forest, Barthe, Paulin 2006, section 4. Errors: outOfMemory.
+Status planVbufferTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws,
+                          const VbufferRequest& request);
 
 }  // namespace halfshadow::techniques

@@ -25,21 +25,19 @@ bool castersMeet(const WedgeVolumes& volumes) {
 }
 
 /// How targets are to be merged here; nothing when vBuffers stay in registers. What is missing is noted.
-std::optional<SideMerge> targetMerge(const LightFrame& frame) {
-  std::string asked = frame.settings.choice("wedges-blended.merge");
-  if (asked == "auto") asked = frame.settings.choice("wedge_merge");
+std::optional<SideMerge> targetMerge(const LightScene& scene, PassPlan& plan) {
+  std::string asked = scene.settings.choice("wedges-blended.merge");
+  if (asked == "auto") asked = scene.settings.choice("wedge_merge");
   if (asked == "gather") return std::nullopt;
-  const auto note = [&](const char* why) {
-    frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge " + asked, why);
-  };
-  if (!frame.capabilities.has(device::Capability::highp)) {
+  const auto note = [&](const char* why) { plan.note(scene.name + " merge " + asked, why); };
+  if (!scene.capabilities.has(device::Capability::highp)) {
     note("a receiver's place needs highp in fragment shaders: casters are gathered");
     return std::nullopt;
   }
-  if (asked == "fetch" && frame.capabilities.has(device::Capability::framebufferFetch))
+  if (asked == "fetch" && scene.capabilities.has(device::Capability::framebufferFetch))
     return SideMerge::fetch;
   if (asked == "core") return SideMerge::core;
-  const bool minmax = frame.capabilities.has(device::Capability::blendMinmax);
+  const bool minmax = scene.capabilities.has(device::Capability::blendMinmax);
   if (asked == "fetch") note("no framebuffer fetch here: rectangles are united by blending");
   if (!minmax) note("no EXT_blend_minmax here: rectangles are united by fixed functions of the core");
   return minmax ? SideMerge::minmax : SideMerge::core;
@@ -92,71 +90,70 @@ class WedgesBlended final : public Technique {
          {},
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override {
-    if (lightIsInRoom(frame)) {
-      frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge",
-                              "the light is inside a closed caster: its faces are gathered");
-      return gather(frame, lights_[frame.lightIndex].lists);
+  std::unique_ptr<LightPlanner> newPlanner() const override;
+};
+
+class BlendedPlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    if (lightIsInRoom(scene)) {
+      plan.note(scene.name + " merge", "the light is inside a closed caster: its faces are gathered");
+      return gather(scene, plan);
     }
-    const WedgeVolumes& volumes = routes_.volumes(frame);
-    Light& light = lights_[frame.lightIndex];
-    if (light.meetKey != volumes.contentKey) {
-      light.meet = castersMeet(volumes);
-      light.meetKey = volumes.contentKey;
+    const WedgeVolumes& volumes = routes_.volumes(scene);
+    if (meetKey_ != volumes.contentKey) {
+      meet_ = castersMeet(volumes);
+      meetKey_ = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.
-    if (!light.meet && frame.capabilities.has(device::Capability::highp)) return addUp(frame, light.lists);
-    if (const auto merge = targetMerge(frame)) {
-      const bool centres = frame.settings.choice("wedges-blended.cog") == "on";
-      return withOwn(declareVbufferTargets(frame, light.draws, {.merge = *merge, .centres = centres}), frame,
-                     light.lists);
+    if (!meet_ && scene.capabilities.has(device::Capability::highp)) return addUp(scene, plan);
+    if (const auto merge = targetMerge(scene, plan)) {
+      const bool centres = scene.settings.choice("wedges-blended.cog") == "on";
+      if (Status s = planVbufferTargets(scene, plan, draws_, {.merge = *merge, .centres = centres}); !s)
+        return s;
+      return addOwn(scene, plan);
     }
-    return gather(frame, light.lists);
-  }
-  void contextLost() override {
-    lights_.clear();
-    routes_.contextLost();
+    return gather(scene, plan);
   }
 
  private:
-  struct Light {
-    LightLists lists;
-    CasterDraws draws;
-    std::uint64_t meetKey = 0;
-    bool meet = false;
-  };
-
   /// Without overlap there is nothing to blend.
-  Result<ReceiverShading> addUp(const LightFrame& frame, LightLists& lists) {
-    frame.graph.noteSkipped("blending", "no two casters shadow the same receiver: their shares are added up");
-    return withOwn(routes_.declareSums(frame, "auto"), frame, lists);
+  Status addUp(const LightScene& scene, PassPlan& plan) {
+    plan.note("blending", "no two casters shadow the same receiver: their shares are added up");
+    routes_.planSums(scene, plan, "auto");
+    return addOwn(scene, plan);
   }
 
-  static Result<ReceiverShading> withOwn(Result<ReceiverShading> shading, const LightFrame& frame,
-                                         LightLists& lists) {
-    return techniques::withOwnReceivers(std::move(shading), frame, lists, "wedges-blended.tiles",
-                                        {&outlines::kWholeLight, 1}, OwnSurfaces::all);
+  Status addOwn(const LightScene& scene, PassPlan& plan) {
+    return addOwnReceivers(scene, plan, lists_, "wedges-blended.tiles", {&outlines::kWholeLight, 1},
+                           OwnSurfaces::all);
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.
-  static Result<ReceiverShading> gather(const LightFrame& frame, LightLists& lists) {
+  Status gather(const LightScene& scene, PassPlan& plan) {
     const ListRequest request{.subLights = {&outlines::kWholeLight, 1},
                               .edges = outlines::ListedEdges::all,
-                              .tiles = frame.settings.integer("wedges-blended.tiles"),
+                              .tiles = scene.settings.integer("wedges-blended.tiles"),
                               .tilesKey = "wedges-blended.tiles"};
-    if (Status s = lists.update(frame, request); !s) return s.error();
-    ReceiverShading shading;
-    shading.fragmentFile = "list/wedges_blended.frag";
-    if (frame.settings.choice("wedges-blended.cog") == "on") shading.defines.push_back("HS_CENTRES");
-    lists.provide(frame, shading);
+    if (Status s = lists_.update(scene, plan, request); !s) return s;
+    plan.shading.fragmentFile = "list/wedges_blended.frag";
+    if (scene.settings.choice("wedges-blended.cog") == "on") plan.shading.defines.push_back("HS_CENTRES");
+    lists_.provide(scene, plan);
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
-    if (preferredSkip(frame) == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
-    return shading;
+    if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
+    return {};
   }
 
   WedgeRoutes routes_;
-  std::map<int, Light> lights_;
+  LightLists lists_;
+  CasterDraws draws_;
+  std::uint64_t meetKey_ = 0;
+  bool meet_ = false;
 };
+
+std::unique_ptr<LightPlanner> WedgesBlended::newPlanner() const {
+  return std::make_unique<BlendedPlanner>();
+}
 }  // namespace
 
 std::unique_ptr<Technique> makeWedgesBlended() {

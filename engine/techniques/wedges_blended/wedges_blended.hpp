@@ -7,7 +7,7 @@
 
 #include <memory>
 
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/technique.hpp"
 
 namespace halfshadow::techniques {
 

@@ -16,8 +16,8 @@ enum class CellProduct {
 
 /// One pass a target: four sub-lights of one cell in one target, of four cells in four, of eight in eight
 /// (and one that takes their mean).
-/// `cells`: 4, 16 or 32. The passes refer to `draws`. Errors: shaderFailed, outOfMemory.
-Result<ReceiverShading> declareCellTargets(const LightFrame& frame, CasterDraws& draws, int cells,
-                                           CellProduct product);
+/// `cells`: 4, 16 or 32. Makes the plan's shading. Errors: outOfMemory.
+Status planCellTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws, int cells,
+                       CellProduct product);
 
 }  // namespace halfshadow::techniques

@@ -2,8 +2,6 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/wedges_cells/wedges_cells.hpp"
 
-#include <map>
-
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
@@ -15,20 +13,20 @@ constexpr auto kQuarters = outlines::subLights();
 enum class Route { gather, scatter, fetch };
 
 /// What this device can do of what is asked for. Errors: none; what is missing is noted.
-Route routeOf(const LightFrame& frame) {
-  std::string asked = frame.settings.choice("wedges-cells.route");
-  if (asked == "auto") asked = frame.settings.choice("wedge_route");
+Route routeOf(const LightScene& scene, PassPlan& plan) {
+  std::string asked = scene.settings.choice("wedges-cells.route");
+  if (asked == "auto") asked = scene.settings.choice("wedge_route");
   if (asked == "gather") return Route::gather;
   const auto instead = [&](Route route, const std::string& why) {
-    frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " route " + asked, why);
+    plan.note(scene.name + " route " + asked, why);
     return route;
   };
-  if (!frame.capabilities.has(device::Capability::highp)) {
+  if (!scene.capabilities.has(device::Capability::highp)) {
     return instead(Route::gather, "a receiver's place needs highp in fragment shaders: cells are gathered");
   }
-  if (lightIsInRoom(frame))
+  if (lightIsInRoom(scene))
     return instead(Route::gather, "the light is inside a closed caster: its faces are gathered");
-  if (asked == "fetch" && !frame.capabilities.has(device::Capability::framebufferFetch)) {
+  if (asked == "fetch" && !scene.capabilities.has(device::Capability::framebufferFetch)) {
     return instead(Route::scatter, "no framebuffer fetch here: cells are multiplied by blending");
   }
   return asked == "fetch" ? Route::fetch : Route::scatter;
@@ -76,42 +74,41 @@ class WedgesCells final : public Technique {
          {},
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
-  Result<ReceiverShading> declare(const LightFrame& frame) override;
-  void contextLost() override {
-    lists_.clear();
-    draws_.clear();
+  std::unique_ptr<LightPlanner> newPlanner() const override;
+};
+
+class CellsPlanner final : public LightPlanner {
+ public:
+  Status plan(const LightScene& scene, PassPlan& plan) override {
+    const Route route = routeOf(scene, plan);
+    if (route == Route::gather) return gather(scene, plan);
+    const int cells = std::stoi(scene.settings.choice("wedges-cells.bytes"));
+    const CellProduct product = route == Route::fetch ? CellProduct::fetched : CellProduct::blended;
+    if (Status s = planCellTargets(scene, plan, draws_, cells, product); !s) return s;
+    return addOwnReceivers(scene, plan, lists_, "wedges-cells.tiles", kQuarters, OwnSurfaces::all);
   }
 
  private:
-  Result<ReceiverShading> gather(const LightFrame& frame);
-  std::map<int, LightLists> lists_;
-  std::map<int, CasterDraws> draws_;
+  Status gather(const LightScene& scene, PassPlan& plan) {
+    const ListRequest request{.subLights = kQuarters,
+                              .edges = outlines::ListedEdges::covering,
+                              .tiles = scene.settings.integer("wedges-cells.tiles"),
+                              .tilesKey = "wedges-cells.tiles"};
+    if (Status s = lists_.update(scene, plan, request); !s) return s;
+    plan.shading.fragmentFile = "list/wedges_cells.frag";
+    plan.shading.defines = {"HS_CELLS " + scene.settings.choice("wedges-cells.bytes")};
+    lists_.provide(scene, plan);
+    // Most fragments have no list; a loop that ends at once still costs a round on some devices.
+    if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
+    return {};
+  }
+
+  LightLists lists_;
+  CasterDraws draws_;
 };
 
-Result<ReceiverShading> WedgesCells::declare(const LightFrame& frame) {
-  const Route route = routeOf(frame);
-  if (route == Route::gather) return gather(frame);
-  auto shading = declareCellTargets(frame, draws_[frame.lightIndex],
-                                    std::stoi(frame.settings.choice("wedges-cells.bytes")),
-                                    route == Route::fetch ? CellProduct::fetched : CellProduct::blended);
-  return withOwnReceivers(std::move(shading), frame, lists_[frame.lightIndex], "wedges-cells.tiles",
-                          kQuarters, OwnSurfaces::all);
-}
-
-Result<ReceiverShading> WedgesCells::gather(const LightFrame& frame) {
-  LightLists& lists = lists_[frame.lightIndex];
-  const ListRequest request{.subLights = kQuarters,
-                            .edges = outlines::ListedEdges::covering,
-                            .tiles = frame.settings.integer("wedges-cells.tiles"),
-                            .tilesKey = "wedges-cells.tiles"};
-  if (Status s = lists.update(frame, request); !s) return s.error();
-  ReceiverShading shading;
-  shading.fragmentFile = "list/wedges_cells.frag";
-  shading.defines = {"HS_CELLS " + frame.settings.choice("wedges-cells.bytes")};
-  lists.provide(frame, shading);
-  // Most fragments have no list; a loop that ends at once still costs a round on some devices.
-  if (preferredSkip(frame) == FilterSkip::stencil) shading.skip = FilterSkip::stencil;
-  return shading;
+std::unique_ptr<LightPlanner> WedgesCells::newPlanner() const {
+  return std::make_unique<CellsPlanner>();
 }
 }  // namespace
 

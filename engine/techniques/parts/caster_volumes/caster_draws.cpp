@@ -23,10 +23,10 @@ struct Vertex {
   glm::vec4 sides;  ///< low a and b, high a and b over height
 };
 
-double farthestReceiver(const LightFrame& frame, const LightLoops& loops) {
+double farthestReceiver(const LightScene& scene, const LightLoops& loops) {
   const scene::LightPlane& plane = loops.plane();
   double farthest = loops.minHeight();
-  for (const DrawItem& item : frame.receivers) {
+  for (const DrawItem& item : scene.receivers) {
     for (const glm::dvec3& corner : item.boundsWorld.corners()) {
       farthest = std::max(farthest, plane.fromWorld(corner).z);
     }
@@ -90,64 +90,51 @@ CasterPlace casterPlace(const outlines::ListSpace& space) {
 }
 }  // namespace
 
-Result<CasterPrograms> casterPrograms(const LightFrame& frame, const std::string& fragmentFile,
-                                      std::vector<std::string> defines) {
-  CasterPrograms programs;
-  for (gl::Program** program : {&programs.beyond, &programs.beside}) {
-    auto linked = frame.programs.get({"list/caster_volume.vert", fragmentFile, defines});
-    if (!linked) return linked.error();
-    *program = *linked;
-    defines.push_back("HS_CASTING_RECEIVER");
-  }
-  return programs;
-}
-
-Status CasterDraws::update(const LightFrame& frame, std::span<const outlines::SubLight> subLights,
-                           Batching batching) {
-  const bool changed = loops_.update(frame, subLights);
+Status CasterDraws::update(const LightScene& scene, PassPlan& plan,
+                           std::span<const outlines::SubLight> subLights, Batching batching) {
+  const bool changed = loops_.update(scene, plan, subLights);
   const scene::LightPlane& plane = loops_.plane();
-  const VolumeReach reach{.end = farthestReceiver(frame, loops_), .sideways = sidewaysReach(frame, plane)};
-  if (uploaded_ && !changed && reach.end == reach_.end && reach.sideways == reach_.sideways) return {};
-  uploaded_ = false;
-  reach_ = reach;
-  subLights_.assign(subLights.begin(), subLights.end());
-  volumes_ = casterVolumes(loops_.subLights(), loops_.space(), reach, batching);
-  if (Status s = upload(frame); !s) return s;
-  uploaded_ = true;
+  const VolumeReach reach{.end = farthestReceiver(scene, loops_), .sideways = sidewaysReach(scene, plane)};
+  if (!encoded_ || changed || reach.end != reach_.end || reach.sideways != reach_.sideways) {
+    encoded_ = false;
+    reach_ = reach;
+    subLights_.assign(subLights.begin(), subLights.end());
+    volumes_ = casterVolumes(loops_.subLights(), loops_.space(), reach, batching);
+    if (Status s = encode(scene); !s) return s;
+    encoded_ = true;
+  }
+  place_ = listPlace(scene, loops_.minHeight());
+  if (volumes_.volumes.empty()) return {};
+  recordsInPlan_ = addList(plan, "caster records", records_, vertices_.key);
+  verticesInPlan_ = plan.addBuffer(vertices_);
+  indicesInPlan_ = indices_.addTo(plan, 2, volumes_.volumes.size(), kCorners);
   return {};
 }
 
-Status CasterDraws::upload(const LightFrame& frame) {
+Status CasterDraws::encode(const LightScene& scene) {
   if (volumes_.volumes.empty()) return {};
   const auto heads = static_cast<int>(volumes_.lists.tiles.size());
   const ReceiverLists all{&volumes_.lists, std::min(heads, kHeadColumns),
                           (heads + kHeadColumns - 1) / kHeadColumns};
   EncodedLists encoded;
-  if (!encodeLists({&all, 1}, std::min(frame.capabilities.limits.textureSize, 65536), encoded)) {
+  if (!encodeLists({&all, 1}, std::min(scene.capabilities.limits.textureSize, 65536), encoded)) {
     return Error{
         ErrorCode::outOfMemory,
         "the silhouettes' vertices exceed this device's largest texture; use fewer or simpler casters"};
   }
-  place_ = listPlace(frame, loops_.minHeight());
-  if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
-  const std::vector<Vertex> stream = vertexStream(volumes_, reach_, loops_.space(), encoded);
-  if (Status s =
-          uploadVolumes(frame.context, vertices_, gl::BufferTarget::vertex, std::as_bytes(std::span(stream)));
-      !s) {
-    return s;
-  }
-  return uploadVolumeIndices(frame.context, indices_, volumes_.volumes.size(), kCorners);
+  vertices_.bytes = streamBytes(vertexStream(volumes_, reach_, loops_.space(), encoded));
+  vertices_.key = ++encodings_;
+  records_ = std::move(encoded.records);
+  return {};
 }
 
-void CasterDraws::draw(framegraph::PassContext& context, const CasterPrograms& programs,
-                       const ReceiverDepth& depth, const View& view, const Request& request) const {
+void CasterDraws::addDraws(const LightScene& scene, PassPlan& plan, PlannedPass& pass,
+                           const ReceiverDepth& depth, const Request& request) const {
   const auto wanted = [&](WedgePart part) {
     return std::ranges::any_of(volumes_.volumes, [&](const CasterVolume& volume) {
       return volume.subLight == request.subLight && volume.batch == request.batch && volume.part == part;
     });
   };
-  gl::Encoder& encoder = context.encoder;
-  gl::Context& gl = encoder.context();
   const scene::LightPlane& plane = loops_.plane();
   const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
                                   glm::dvec4(plane.heightUnit * plane.normal, 0),
@@ -155,56 +142,62 @@ void CasterDraws::draw(framegraph::PassContext& context, const CasterPrograms& p
   const outlines::SubLight& light = subLights_[request.subLight];
   const outlines::ListSpace& space = loops_.space();
   const CasterPlace place = casterPlace(space);
-  ReceiverRays rays = receiverRays(view, depth, place.fromWorld, plane.centerWorld);
+  ReceiverRays rays = receiverRays(scene.screen, depth, place.fromWorld, plane.centerWorld);
   if (space.originI > 0.0) rays.eye.z += 1.0;
   const glm::dmat4 clipFromLight =
       depth.clipFromWorld * worldFromLight * glm::translate(glm::dmat4(1.0), baseOf(space));
-  const glm::vec2 texel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
+  const glm::vec2 texel = 1.0f / glm::vec2(records_.width, records_.height);
+  std::vector<std::string> defines = request.defines;
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
+    if (part == WedgePart::beside) defines.push_back("HS_CASTING_RECEIVER");
     if (!wanted(part)) continue;
-    gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
-    encoder.useProgram(program);
-    bindReceiverPosition(context, program, depth, rays);
-    const gl::TextureBinding binding{program.samplerUnit("u_cellLists"), &records_};
-    encoder.bindTextures({&binding, 1});
-    program.set(gl, "u_clipFromLight", glm::mat4(clipFromLight));
-    program.set(gl, "u_cellTexel", glm::vec4(0.0f, 0.0f, texel));
-    program.set(gl, "u_listPlace", place_);
-    program.set(gl, "u_casterPlace", place.heights);
-    program.set(gl, "u_facetLift", glm::mat3(place.fromWorld));
-    program.set(gl, "u_liftSize", place.sizeWorld);
-    program.set(gl, "u_lightUnit", place.unitWorld);
-    program.set(gl, "u_casterLight", glm::vec4(light.center - light.half, light.center + light.half));
-    if (request.prepare) request.prepare(program);
-    drawPart(encoder, view, request, part);
+    PlannedDraw draw{.program = plan.addProgram({"list/caster_volume.vert", request.fragmentFile, defines})};
+    addReceiverPosition(draw, scene.screen, depth, rays);
+    draw.textures.push_back({.sampler = "u_cellLists", .own = recordsInPlan_});
+    draw.textures.insert(draw.textures.end(), request.textures.begin(), request.textures.end());
+    draw.uniforms.set("u_clipFromLight", glm::mat4(clipFromLight));
+    draw.uniforms.set("u_cellTexel", glm::vec4(0.0f, 0.0f, texel));
+    draw.uniforms.set("u_listPlace", place_);
+    draw.uniforms.set("u_casterPlace", place.heights);
+    draw.uniforms.set("u_facetLift", glm::mat3(place.fromWorld));
+    draw.uniforms.set("u_liftSize", place.sizeWorld);
+    draw.uniforms.set("u_lightUnit", place.unitWorld);
+    draw.uniforms.set("u_casterLight", glm::vec4(light.center - light.half, light.center + light.half));
+    draw.state.blend = request.blend;
+    draw.state.colorMask = request.colorMask;
+    addPart(pass, draw, scene.screen, request, part);
   }
 }
 
-void CasterDraws::drawPart(gl::Encoder& encoder, const View& view, const Request& request,
-                           WedgePart part) const {
+void CasterDraws::addPart(PlannedPass& pass, const PlannedDraw& draw, const View& view,
+                          const Request& request, WedgePart part) const {
   const auto hull = eyeHull(view, loops_.plane());
-  gl::DrawState state{.blend = request.blend, .colorMask = request.colorMask};
   const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
     // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
     // those that face away stand behind it. Few receivers are at a caster's own heights, and most of the
     // screen is behind: there, the farther sides reject it.
     const bool front = outside && part == WedgePart::beyond;
-    state.cull = front ? gl::Cull::back : gl::Cull::front;
-    state.depth = {.test = front ? gl::Compare::lequal : gl::Compare::gequal};
     while (first < end) {
       const std::size_t now = std::min(end - first, volumesPerDraw(kCorners));
       const std::size_t offset = first * kCorners * sizeof(Vertex);
       constexpr int kStride = sizeof(Vertex);
-      const gl::AttributeBinding bindings[] = {
-          {gl::VertexAttribute::position, &vertices_, 3, gl::AttributeType::float32, kStride, offset},
-          {gl::VertexAttribute::extra0, &vertices_, 3, gl::AttributeType::float32, kStride,
-           offset + offsetof(Vertex, list)},
-          {gl::VertexAttribute::extra1, &vertices_, 4, gl::AttributeType::float32, kStride,
-           offset + offsetof(Vertex, sides)}};
-      encoder.draw(state, {.attributes = bindings,
-                           .indices = &indices_,
-                           .indexType = gl::IndexType::uint16,
-                           .count = now * kVolumeIndices});
+      const auto attribute = [&](device::VertexAttribute which, int components, std::size_t at) {
+        return BufferDraw::Attribute{.attribute = which,
+                                     .buffer = verticesInPlan_,
+                                     .components = components,
+                                     .strideBytes = kStride,
+                                     .offsetBytes = offset + at};
+      };
+      PlannedDraw& added = pass.draws.emplace_back(draw);
+      added.state.cull = front ? device::Cull::back : device::Cull::front;
+      added.state.depth = {.test = front ? device::Compare::lequal : device::Compare::gequal};
+      added.what =
+          BufferDraw{.attributes = {attribute(device::VertexAttribute::position, 3, 0),
+                                    attribute(device::VertexAttribute::extra0, 3, offsetof(Vertex, list)),
+                                    attribute(device::VertexAttribute::extra1, 4, offsetof(Vertex, sides))},
+                     .indices = indicesInPlan_,
+                     .indexType = device::IndexType::uint16,
+                     .count = now * kVolumeIndices};
       first += now;
     }
   };

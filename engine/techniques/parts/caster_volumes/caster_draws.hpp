@@ -5,52 +5,53 @@
 /// what a caster covers is complete before it is stored, and targets need neither signs nor sums.
 #pragma once
 
-#include <map>
+#include <array>
+#include <string>
+#include <vector>
 
 #include "techniques/parts/caster_volumes/caster_volumes.hpp"
 #include "techniques/parts/lists/light_loops.hpp"
+#include "techniques/parts/lists/list_textures.hpp"
 #include "techniques/parts/screen/receiver_depth.hpp"
 
 namespace halfshadow::techniques {
 
-/// Of caster_volume.vert and a fragment shader that includes caster_fragment.glsl.
-struct CasterPrograms {
-  gl::Program* beside = nullptr;  ///< compiled with HS_CASTING_RECEIVER
-  gl::Program* beyond = nullptr;
-};
-/// Errors: shaderFailed.
-Result<CasterPrograms> casterPrograms(const LightFrame& frame, const std::string& fragmentFile,
-                                      std::vector<std::string> defines);
-
 /// The casters of one light.
 class CasterDraws {
  public:
-  /// Made anew when light, casters, settings or the receivers' reach changed. Errors: outOfMemory.
-  Status update(const LightFrame& frame, std::span<const outlines::SubLight> subLights, Batching batching);
+  /// Made anew when light, casters, settings or the receivers' reach changed; buffers and lists go to the
+  /// plan. Errors: outOfMemory.
+  Status update(const LightScene& scene, PassPlan& plan, std::span<const outlines::SubLight> subLights,
+                Batching batching);
   bool lightEnclosed(std::uint32_t subLight) const { return volumes_.lightEnclosed[subLight]; }
   std::uint32_t batchCount() const { return volumes_.batchCount; }
 
   struct Request {
     std::uint32_t subLight = 0, batch = 0;
-    gl::BlendState blend;
+    std::string fragmentFile;          ///< includes caster_fragment.glsl
+    std::vector<std::string> defines;  ///< of volumes behind their casters
+    device::BlendState blend{};
     std::array<bool, 4> colorMask{true, true, true, true};
-    /// Called with each program while it is current: uniforms and textures of the fragment shader's own.
-    std::function<void(gl::Program&)> prepare{};
+    std::vector<TextureRead> textures{};  ///< of the fragment shader's own
   };
-  /// In a pass whose depth attachment is ReceiverDepth::depthTest; `depth` was declared with facets.
-  void draw(framegraph::PassContext& context, const CasterPrograms& programs, const ReceiverDepth& depth,
-            const View& view, const Request& request) const;
+  /// Into a pass whose depth attachment is ReceiverDepth::depthTest; `depth` was planned with facets.
+  void addDraws(const LightScene& scene, PassPlan& plan, PlannedPass& pass, const ReceiverDepth& depth,
+                const Request& request) const;
 
  private:
-  Status upload(const LightFrame& frame);
-  void drawPart(gl::Encoder& encoder, const View& view, const Request& request, WedgePart part) const;
+  Status encode(const LightScene& scene);
+  void addPart(PlannedPass& pass, const PlannedDraw& draw, const View& view, const Request& request,
+               WedgePart part) const;
 
   LightLoops loops_;
   VolumeReach reach_;
   CasterVolumes volumes_;
-  bool uploaded_ = false;
-  gl::Texture records_;
-  gl::Buffer vertices_, indices_;
+  bool encoded_ = false;
+  ListImage records_;
+  PlannedBuffer vertices_{.id = 1};
+  VolumeIndices indices_;
+  std::uint64_t encodings_ = 0;  ///< counts up: the key of records and vertices
+  std::uint32_t recordsInPlan_ = 0, verticesInPlan_ = 0, indicesInPlan_ = 0;
   glm::vec4 place_{0.0f};
   std::vector<outlines::SubLight> subLights_;
 };

@@ -27,8 +27,8 @@ outlines::WedgeExtent extentOf(const outlines::CasterLoops& caster, const outlin
 }
 
 /// Whole loops, each vertex and the first once more.
-std::uint32_t addList(const outlines::CasterLoops& caster, std::uint8_t subLight,
-                      outlines::TileLists& lists) {
+std::uint32_t addLoops(const outlines::CasterLoops& caster, std::uint8_t subLight,
+                       outlines::TileLists& lists) {
   outlines::TileList list{.first = static_cast<std::uint32_t>(lists.records.size()), .casters = 1};
   for (const outlines::CasterLoops::Loop& loop : caster.loops) {
     for (std::uint32_t k = 0; k <= loop.count; ++k) {
@@ -62,7 +62,7 @@ class Collector {
       if (volume.extent.nearest >= reach_.end) continue;
       // A little of both sides of the split, so that rounding leaves no receiver outside.
       const double from = heightOf(splitI + 0.1f * margin), until = heightOf(splitI - 0.1f * margin);
-      volume.list = addList(caster, static_cast<std::uint8_t>(subLight), result_.lists);
+      volume.list = addLoops(caster, static_cast<std::uint8_t>(subLight), result_.lists);
       addPart(volume, WedgePart::beside, volume.extent.nearest, until);
       if (caster.layerCount == 0) addPart(volume, WedgePart::beyond, from, reach_.end);
       for (std::uint32_t l = 0; l < caster.layerCount; ++l) {
@@ -72,7 +72,7 @@ class Collector {
                                  .caster = c,
                                  .extent = extentOf(layer, loops.light, space_),
                                  .splitI = splitI};
-        layerVolume.list = addList(layer, static_cast<std::uint8_t>(subLight), result_.lists);
+        layerVolume.list = addLoops(layer, static_cast<std::uint8_t>(subLight), result_.lists);
         addPart(layerVolume, WedgePart::beyond, from, reach_.end);
       }
     }

@@ -65,15 +65,15 @@ FacetPlanes facetPlanes(const outlines::ListSpace& space, const glm::dmat4& worl
 bool isListed(const DrawItem& item, const ListRequest& request) {
   return request.receivers == ListedReceivers::all || item.casts;
 }
-std::size_t countListed(const LightFrame& frame, const ListRequest& request) {
+std::size_t countListed(const LightScene& scene, const ListRequest& request) {
   return static_cast<std::size_t>(
-      std::ranges::count_if(frame.receivers, [&](const DrawItem& item) { return isListed(item, request); }));
+      std::ranges::count_if(scene.receivers, [&](const DrawItem& item) { return isListed(item, request); }));
 }
 
 /// Whether faces of the receiver may be seen from behind: it has openings, or the near plane opens it.
 bool maySeeBehind(const View& view, const DrawItem& item) {
   if (!item.closed) return true;
-  return hiddenFaces(item, view.eyeWorld, view.nearReach) == gl::Cull::none &&
+  return hiddenFaces(item, view.eyeWorld, view.nearReach) == device::Cull::none &&
          std::ranges::any_of(item.boundsWorld.corners(), [&](const glm::dvec3& corner) {
            const glm::dvec4 clip = view.clipFromWorld * glm::dvec4(corner, 1.0);
            return clip.z < -clip.w;
@@ -101,30 +101,26 @@ struct Reach {
 
 }  // namespace
 
-glm::vec4 listPlace(const LightFrame& frame, double minHeight) {
+glm::vec4 listPlace(const LightScene& scene, double minHeight) {
   // Half precision has 11 bits.
-  const double rounding = frame.capabilities.has(device::Capability::highp) ? outlines::kPlaceRounding : 1e-3;
-  const auto bias = static_cast<float>(frame.settings.real("bias"));
+  const double rounding = scene.capabilities.has(device::Capability::highp) ? outlines::kPlaceRounding : 1e-3;
+  const auto bias = static_cast<float>(scene.settings.real("bias"));
   return {static_cast<float>(minHeight), 2.0f * bias, bias, bias * static_cast<float>(rounding)};
 }
 
-Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture) {
-  if (texture && texture.desc().width == image.width && texture.desc().height == image.height) {
-    texture.update(context, 0, 0, image.width, image.height, image.rgba.data());
-    return {};
-  }
-  auto made = gl::Texture::create(context, {.width = image.width, .height = image.height}, image.rgba.data());
-  if (!made) return made.error();
-  texture = std::move(made).value();
-  return {};
+std::uint32_t addList(PassPlan& plan, std::string name, const ListImage& image, std::uint64_t key) {
+  return plan.addTexture({.name = std::move(name),
+                          .desc = {.width = image.width, .height = image.height},
+                          .key = key,
+                          .pixels = [rgba = image.rgba] { return rgba; }});
 }
 
-bool LightLists::boundShadows(const LightFrame& frame) {
-  if (sceneKey_ == frame.sceneKey) return true;
-  sceneKey_ = frame.sceneKey;
+bool LightLists::boundShadows(const LightScene& scene) {
+  if (sceneKey_ == scene.sceneKey) return true;
+  sceneKey_ = scene.sceneKey;
   // Of all objects, not of those in view, or tiles would follow the camera.
   Reach reach;
-  for (const auto items : {frame.casters, frame.shadowlessReceivers}) {
+  for (const auto items : {scene.casters, scene.shadowlessReceivers}) {
     for (const DrawItem& item : items) {
       if (item.receives) reach.include(item.boundsWorld, loops_.space(), loops_.minHeight());
     }
@@ -147,41 +143,41 @@ bool LightLists::boundShadows(const LightFrame& frame) {
   return same;
 }
 
-Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
-  const bool loopsChanged = loops_.update(frame, request.subLights);
+Status LightLists::update(const LightScene& scene, PassPlan& plan, const ListRequest& request) {
+  const bool loopsChanged = loops_.update(scene, plan, request.subLights);
   if (loopsChanged) sceneKey_ = 0;
-  if (!boundShadows(frame)) receivers_.clear();
+  if (!boundShadows(scene)) receivers_.clear();
   if (loopsChanged) {
-    surfaces_ = outlines::NearSurfaces(placedCasters(frame), loops_.space(), loops_.minHeight());
+    surfaces_ = outlines::NearSurfaces(placedCasters(scene), loops_.space(), loops_.minHeight());
     receivers_.clear();
     encoded_.clear();
-    std::vector<const void*> geometries;
-    for (const DrawItem& caster : frame.casters) geometries.push_back(caster.geometry);
+    std::vector<std::uint64_t> casters;
+    for (const DrawItem& caster : scene.casters) casters.push_back(caster.object);
     // Whatever stood here before must not show in the picture.
-    if (geometries != casters_) doublings_ = 0;
-    casters_ = std::move(geometries);
+    if (casters != casters_) doublings_ = 0;
+    casters_ = std::move(casters);
   }
   const double finest = shadowSize_ / request.tiles;
-  const device::Limits& limits = frame.capabilities.limits;
+  const device::Limits& limits = scene.capabilities.limits;
   // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
   const int maxRows =
-      std::min({limits.textureSize, 65536, frame.capabilities.has(device::Capability::highp) ? 65536 : 1024});
+      std::min({limits.textureSize, 65536, scene.capabilities.has(device::Capability::highp) ? 65536 : 1024});
   tileSize_ = finest * std::exp2(doublings_);
-  bool changed = !tiles_;
+  bool changed = imageKey_ == 0;
   const std::size_t mostRecords = static_cast<std::size_t>(maxRows) * kRecordsPerRow;
   for (int attempt = 0; attempt < 8; ++attempt) {
-    std::vector<const void*> used;
+    std::vector<std::uint64_t> used;
     std::vector<ReceiverLists> receivers;
     std::size_t records = 0;
-    for (const DrawItem& item : frame.receivers) {
+    for (const DrawItem& item : scene.receivers) {
       if (!isListed(item, request)) continue;
-      Receiver& cached = receivers_[item.geometry];
-      const bool seenFromBehind = maySeeBehind(frame.screen, item);
+      Receiver& cached = receivers_[item.object];
+      const bool seenFromBehind = maySeeBehind(scene.screen, item);
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind) {
         cached.revision = item.revision;
         cached.seenFromBehind = seenFromBehind;
         cached.casts = item.casts;
-        const outlines::ListedReceiver receiver{.ownObject = placedCasterOf(frame, item)};
+        const outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item)};
         cached.tiles =
             receiverTiles({.mesh = item.sourceMesh,
                            .worldFromObject = item.worldFromObject,
@@ -196,18 +192,19 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
       // What does not fit is not built to its end.
       records += cached.lists.records.size();
       if (cached.lists.cutShort || records > mostRecords) break;
-      used.push_back(item.geometry);
+      used.push_back(item.object);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
     }
     // Receivers come in the camera's order; what is encoded does not depend on it.
-    std::vector<const void*> inSomeOrder = used;
+    std::vector<std::uint64_t> inSomeOrder = used;
     std::ranges::sort(inSomeOrder);
     if (!changed && inSomeOrder == encoded_) return {};
     EncodedLists encoded;
-    const bool whole = used.size() == countListed(frame, request);
+    const bool whole = used.size() == countListed(scene, request);
     if (whole && encodeLists(receivers, maxRows, encoded)) {
-      if (Status s = uploadList(frame.context, encoded.tiles, tiles_); !s) return s;
-      if (Status s = uploadList(frame.context, encoded.records, records_); !s) return s;
+      tiles_ = std::move(encoded.tiles);
+      records_ = std::move(encoded.records);
+      ++imageKey_;
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
       encoded_ = std::move(inSomeOrder);
       // The next lists are tried finer where these would have fitted.
@@ -218,23 +215,26 @@ Status LightLists::update(const LightFrame& frame, const ListRequest& request) {
     ++doublings_;
     tileSize_ *= 2.0;
     receivers_.clear();
-    frame.graph.noteSkipped(std::string(request.tilesKey),
-                            "the lists exceed the largest texture; tiles are twice as large");
+    plan.note(std::string(request.tilesKey),
+              "the lists exceed the largest texture; tiles are twice as large");
   }
   return Error{ErrorCode::outOfMemory,
                "the silhouettes' vertex lists exceed this device's largest texture; lower " +
                    std::string(request.tilesKey)};
 }
 
-void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) const {
+void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
+  ReceiverShading& shading = plan.shading;
   shading.forward = false;
   shading.usesFacetPlane = true;
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
   const bool oneSided =
       std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.oneSided; });
   if (oneSided) shading.defines.push_back("HS_ONE_SIDED");
-  shading.textures.push_back({.sampler = "u_cellTiles", .resource = {}, .texture = &tiles_});
-  shading.textures.push_back({.sampler = "u_cellLists", .resource = {}, .texture = &records_});
+  shading.textures.push_back(
+      {.sampler = "u_cellTiles", .own = addList(plan, "list tiles", tiles_, imageKey_)});
+  shading.textures.push_back(
+      {.sampler = "u_cellLists", .own = addList(plan, "list records", records_, imageKey_)});
   const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
     return receiver.second.lists.amongReceivers && !receiver.second.casts;
   });
@@ -244,40 +244,35 @@ void LightLists::provide(const LightFrame& frame, ReceiverShading& shading) cons
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");
   shading.mapFromWorld = loops_.space().homogeneousFromWorld();
-  const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.desc().width, tiles_.desc().height);
-  const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.desc().width, records_.desc().height);
-  const std::array<glm::vec4, 3> rays = pixelRays(frame.screen, shading.mapFromWorld);
-  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(frame.screen.eyeWorld, 1.0));
-  const glm::vec4 place = listPlace(frame, loops_.minHeight());
-  shading.setUniforms = [others = std::move(shading.setUniforms), rays, eye, place,
-                         texel = glm::vec4(tileTexel, recordTexel)](gl::Program& program,
-                                                                    gl::Context& context) {
-    if (others) others(program, context);
-    program.set(context, "u_cellTexel", texel);
-    program.set(context, "u_listPlace", place);
-    program.set(context, "u_rayX", rays[0]);
-    program.set(context, "u_rayY", rays[1]);
-    program.set(context, "u_rayOrigin", rays[2]);
-    program.set(context, "u_eyeLight", eye);
-  };
-  shading.setItemUniforms = [this](gl::Program& program, gl::Context& context, const DrawItem& item) {
+  const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.width, tiles_.height);
+  const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.width, records_.height);
+  const std::array<glm::vec4, 3> rays = pixelRays(scene.screen, shading.mapFromWorld);
+  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(scene.screen.eyeWorld, 1.0));
+  const glm::vec4 place = listPlace(scene, loops_.minHeight());
+  shading.uniforms.set("u_cellTexel", glm::vec4(tileTexel, recordTexel));
+  shading.uniforms.set("u_listPlace", place);
+  shading.uniforms.set("u_rayX", rays[0]);
+  shading.uniforms.set("u_rayY", rays[1]);
+  shading.uniforms.set("u_rayOrigin", rays[2]);
+  shading.uniforms.set("u_eyeLight", eye);
+  shading.itemUniforms = [this](const DrawItem& item, device::UniformList& uniforms) {
     const FacetPlanes planes = facetPlanes(loops_.space(), item.worldFromObject);
-    program.set(context, "u_facetT0", planes.t[0]);
-    program.set(context, "u_facetT1", planes.t[1]);
-    program.set(context, "u_facetI", planes.i);
-    program.set(context, "u_facetOne", planes.one);
-    const auto found = receivers_.find(item.geometry);
+    uniforms.set("u_facetT0", planes.t[0]);
+    uniforms.set("u_facetT1", planes.t[1]);
+    uniforms.set("u_facetI", planes.i);
+    uniforms.set("u_facetOne", planes.one);
+    const auto found = receivers_.find(item.object);
     if (found == receivers_.end() || found->second.tiles.empty()) {
-      program.set(context, "u_tileAtlas", glm::vec4(0.0f));
-      program.set(context, "u_tileSqueeze", glm::vec2(0.0f));
+      uniforms.set("u_tileAtlas", glm::vec4(0.0f));
+      uniforms.set("u_tileSqueeze", glm::vec2(0.0f));
       return;
     }
     const outlines::ReceiverTiles& tiles = found->second.tiles;
     const glm::dvec2 scale = 1.0 / tiles.tileSize;
-    program.set(context, "u_tileSqueeze", glm::vec2(tiles.scale.squeeze));
-    program.set(context, "u_tileOfTangent", glm::vec4(glm::dvec4(scale, -tiles.low * scale)));
-    program.set(context, "u_tileAtlas",
-                glm::vec4(tiles.columns, tiles.rows, found->second.firstTexel.x, found->second.firstTexel.y));
+    uniforms.set("u_tileSqueeze", glm::vec2(tiles.scale.squeeze));
+    uniforms.set("u_tileOfTangent", glm::vec4(glm::dvec4(scale, -tiles.low * scale)));
+    uniforms.set("u_tileAtlas", glm::vec4(tiles.columns, tiles.rows, found->second.firstTexel.x,
+                                          found->second.firstTexel.y));
   };
 }
 

@@ -7,7 +7,7 @@
 
 #include <map>
 
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/pass_plan.hpp"
 #include "techniques/parts/lists/light_loops.hpp"
 #include "techniques/parts/lists/list_textures.hpp"
 
@@ -31,21 +31,21 @@ struct ListRequest {
 /// What shaders with list_vertices.glsl need to know of a fragment's place: the least height of a receiver;
 /// by how many steps vertices are nearer to its height than stored; by how many steps, and by what share of
 /// its (t, i), it stands off its facet.
-glm::vec4 listPlace(const LightFrame& frame, double minHeight);
+glm::vec4 listPlace(const LightScene& scene, double minHeight);
 
-/// Into `texture`, made anew when the size differs. Errors: outOfMemory.
-Status uploadList(gl::Context& context, const ListImage& image, gl::Texture& texture);
+/// The image as a texture of the plan; `key` changes with its content.
+std::uint32_t addList(PassPlan& plan, std::string name, const ListImage& image, std::uint64_t key);
 
 /// The lists of one light.
 class LightLists {
  public:
   /// Makes anew what changed. Errors: outOfMemory (lists exceed the largest texture).
-  Status update(const LightFrame& frame, const ListRequest& request);
+  Status update(const LightScene& scene, PassPlan& plan, const ListRequest& request);
   /// Silhouettes of the last update, one entry per sub-light.
   std::span<const outlines::SubLightLoops> subLights() const { return loops_.subLights(); }
-  /// Adds textures and uniforms for a fragment shader with caster_lists.glsl. The shading refers to this
-  /// object.
-  void provide(const LightFrame& frame, ReceiverShading& shading) const;
+  /// Adds textures and uniforms to the plan's shading, for a fragment shader with caster_lists.glsl. It
+  /// refers to this object.
+  void provide(const LightScene& scene, PassPlan& plan) const;
 
  private:
   struct Receiver {
@@ -57,7 +57,7 @@ class LightLists {
   };
 
   /// False when what bounds the tiles changed.
-  bool boundShadows(const LightFrame& frame);
+  bool boundShadows(const LightScene& scene);
 
   LightLoops loops_;
   outlines::NearSurfaces surfaces_;
@@ -67,10 +67,11 @@ class LightLists {
   double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers, on that scale
   double tileSize_ = 1.0;
   int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
-  std::vector<const void*> casters_;           ///< by their geometry
-  std::map<const void*, Receiver> receivers_;  ///< by the object's geometry
-  std::vector<const void*> encoded_;           ///< those in the textures, by address
-  gl::Texture tiles_, records_;
+  std::vector<std::uint64_t> casters_;           ///< by DrawItem::object
+  std::map<std::uint64_t, Receiver> receivers_;  ///< by DrawItem::object
+  std::vector<std::uint64_t> encoded_;           ///< those in the textures
+  ListImage tiles_, records_;
+  std::uint64_t imageKey_ = 0;  ///< counts up with them
 };
 
 }  // namespace halfshadow::techniques

@@ -57,31 +57,31 @@ outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const Draw
 }
 }  // namespace
 
-bool LightLoops::update(const LightFrame& frame, std::span<const outlines::SubLight> subLights) {
-  const std::vector<outlines::RoomPart> seenInside = partsSeenInside(frame);
-  std::uint64_t key = combineKeys(frame.contentKey, frame.settings.revision());
+bool LightLoops::update(const LightScene& scene, PassPlan& plan,
+                        std::span<const outlines::SubLight> subLights) {
+  const std::vector<outlines::RoomPart> seenInside = partsSeenInside(scene);
+  std::uint64_t key = combineKeys(scene.contentKey, scene.settings.revision());
   for (const outlines::RoomPart& room : seenInside)
     key = combineKeys(key, (std::uint64_t{room.object} << 32) + room.part + 1);
   if (key_ == key) return false;
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
-  const double unit = std::exp2(std::ceil(std::log2(frame.fit().farDistance)));
+  const double unit = std::exp2(std::ceil(std::log2(scene.fit().farDistance)));
   const double share =
-      frame.capabilities.has(device::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
-  const double nearest = nearestDistance(frame.casters, frame.light.centerWorld);
-  space_ = spaceOf(scene::LightPlane(frame.light, unit, share * nearest), frame.casters, nearest);
+      scene.capabilities.has(device::Capability::highp) ? kMinHalfLength : kMinHalfLengthOfHalves;
+  const double nearest = nearestDistance(scene.casters, scene.light.centerWorld);
+  space_ = spaceOf(scene::LightPlane(scene.light, unit, share * nearest), scene.casters, nearest);
   const scene::LightPlane& plane = space_.plane;
   minHeight_ = kNearestCut * std::min(glm::length(plane.halfU), glm::length(plane.halfV)) / unit;
-  const std::span<const scene::PlacedCaster> casters = placedCasters(frame);
-  const std::vector<bool> enclosed = outlines::enclosedCasters(casters, frame.light);
+  const std::span<const scene::PlacedCaster> casters = placedCasters(scene);
+  const std::vector<bool> enclosed = outlines::enclosedCasters(casters, scene.light);
   std::vector<scene::PlacedCaster> shown;
   for (std::size_t k = 0; k < casters.size(); ++k) {
     if (!enclosed[k]) shown.push_back(casters[k]);
   }
   if (shown.size() < casters.size()) {
-    frame.graph.noteSkipped(std::to_string(casters.size() - shown.size()) + " casters of light " +
-                                std::to_string(frame.lightIndex),
-                            "they lie inside another caster, which hides all that they hide");
+    plan.note(std::to_string(casters.size() - shown.size()) + " casters of " + scene.name,
+              "they lie inside another caster, which hides all that they hide");
   }
   subLights_.clear();
   silhouettes_.resize(subLights.size());

@@ -6,14 +6,15 @@
 #pragma once
 
 #include "outlines/caster_loops.hpp"
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
 
 class LightLoops {
  public:
-  /// True when they were found anew: light, casters or settings changed.
-  bool update(const LightFrame& frame, std::span<const outlines::SubLight> subLights);
+  /// True when they were found anew: light, casters or settings changed. Casters that
+  /// are left out are noted in the plan.
+  bool update(const LightScene& scene, PassPlan& plan, std::span<const outlines::SubLight> subLights);
   const scene::LightPlane& plane() const { return space_.plane; }
   const outlines::ListSpace& space() const { return space_; }
   /// What is nearer to the light's plane is cut: a thousandth of the light's smaller half side.

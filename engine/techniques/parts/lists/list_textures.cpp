@@ -114,6 +114,11 @@ void encodeRecord(const outlines::ListRecord& record, const EncodedLists::Placed
   texels[7] = static_cast<std::uint8_t>(scale);
 }
 
+std::vector<std::uint8_t> blankTexels(const ListImage& image) {
+  return std::vector<std::uint8_t>(static_cast<std::size_t>(image.width) *
+                                   static_cast<std::size_t>(image.height) * 4);
+}
+
 /// Shelves: receivers side by side, a new row of them where the image ends.
 ListImage placeTiles(std::span<const ReceiverLists> receivers, std::vector<glm::ivec2>& firstTexel) {
   int x = 0, y = 0, shelf = 0;
@@ -127,9 +132,7 @@ ListImage placeTiles(std::span<const ReceiverLists> receivers, std::vector<glm::
     x += receiver.columns;
     shelf = std::max(shelf, receiver.rows);
   }
-  ListImage image{.width = kTileImageWidth, .height = std::max(y + shelf, 1)};
-  image.rgba.resize(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) * 4);
-  return image;
+  return {.width = kTileImageWidth, .height = std::max(y + shelf, 1)};
 }
 }  // namespace
 
@@ -148,9 +151,9 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   while (height < rows) height *= 2;
   result.records = {.width = 2 * kRecordsPerRow,
                     .height = static_cast<int>(std::min(height, static_cast<std::size_t>(maxRows)))};
-  result.records.rgba.resize(static_cast<std::size_t>(result.records.width) *
-                             static_cast<std::size_t>(result.records.height) * 4);
+  std::vector<std::uint8_t> recordTexels = blankTexels(result.records);
   result.tiles = placeTiles(receivers, result.firstTexel);
+  std::vector<std::uint8_t> tileTexels = blankTexels(result.tiles);
   std::size_t next = 0;
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const ReceiverLists& receiver = receivers[r];
@@ -160,7 +163,7 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
           static_cast<std::size_t>(result.firstTexel[r].x) + t % std::size_t(receiver.columns);
       const std::size_t y =
           static_cast<std::size_t>(result.firstTexel[r].y) + t / std::size_t(receiver.columns);
-      std::uint8_t* texel = &result.tiles.rgba[(y * std::size_t(kTileImageWidth) + x) * 4];
+      std::uint8_t* texel = &tileTexels[(y * std::size_t(kTileImageWidth) + x) * 4];
       texel[0] = static_cast<std::uint8_t>(next % kRecordsPerRow);
       texel[1] = static_cast<std::uint8_t>(next / kRecordsPerRow & 255);
       texel[2] = static_cast<std::uint8_t>(next / kRecordsPerRow >> 8);
@@ -171,12 +174,14 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
       const auto records = std::span(receiver.lists->records).subspan(list.first, list.count);
       placed = placementOf(records);
       placed.firstRecord = static_cast<std::uint32_t>(next);
-      encodePlacement(placed, &result.records.rgba[next++ * 8]);
+      encodePlacement(placed, &recordTexels[next++ * 8]);
       for (const outlines::ListRecord& record : records) {
-        encodeRecord(record, placed, &result.records.rgba[next++ * 8]);
+        encodeRecord(record, placed, &recordTexels[next++ * 8]);
       }
     }
   }
+  result.records.rgba = std::make_shared<const std::vector<std::uint8_t>>(std::move(recordTexels));
+  result.tiles.rgba = std::make_shared<const std::vector<std::uint8_t>>(std::move(tileTexels));
   return true;
 }
 

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,7 +20,7 @@ inline constexpr int kRecordsPerRow = 256;
 /// RGBA bytes, rows of `width` texels.
 struct ListImage {
   int width = 1, height = 1;
-  std::vector<std::uint8_t> rgba;
+  std::shared_ptr<const std::vector<std::uint8_t>> rgba;
 };
 
 /// A tile's texel: record column, record row (low, high byte), sub-lights that nothing covers + 16 where

@@ -6,25 +6,23 @@
 
 namespace halfshadow::techniques {
 
-Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
-                                         LightLists& lists, std::string_view tilesKey,
-                                         std::span<const outlines::SubLight> subLights, OwnSurfaces which) {
-  if (!shading) return shading;
+Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLists& lists, std::string_view tilesKey,
+                       std::span<const outlines::SubLight> subLights, OwnSurfaces which) {
   const auto needsNone = [which](const scene::CasterPart& part) {
     return part.convex && which == OwnSurfaces::hollow;
   };
-  const bool some = std::ranges::any_of(frame.receivers, [&](const DrawItem& item) {
-    const std::uint32_t own = placedCasterOf(frame, item);
-    return own != kNoCaster && !std::ranges::all_of(placedCasters(frame)[own].mesh->parts(), needsNone);
+  const bool some = std::ranges::any_of(scene.receivers, [&](const DrawItem& item) {
+    const std::uint32_t own = placedCasterOf(scene, item);
+    return own != kNoCaster && !std::ranges::all_of(placedCasters(scene)[own].mesh->parts(), needsNone);
   });
-  if (!some) return shading;
+  if (!some) return {};
   const ListRequest request{.subLights = subLights,
                             .receivers = ListedReceivers::casting,
-                            .tiles = frame.settings.integer(tilesKey),
+                            .tiles = scene.settings.integer(tilesKey),
                             .tilesKey = tilesKey};
-  if (Status s = lists.update(frame, request); !s) return s.error();
-  lists.provide(frame, *shading);
-  return shading;
+  if (Status s = lists.update(scene, plan, request); !s) return s;
+  lists.provide(scene, plan);
+  return {};
 }
 
 }  // namespace halfshadow::techniques

@@ -17,12 +17,11 @@ enum class OwnSurfaces {
   all      ///< a silhouette is that of one point of the light, and own facets know all others
 };
 
-/// Makes casting receivers of `shading` walk lists, for a fragment file that does so with
-/// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them, or with an error. `tilesKey`:
-/// the setting that holds the number of tiles. `subLights`: those of the fragment file. Errors: those of
-/// `shading`, outOfMemory (lists exceed the largest texture).
-Result<ReceiverShading> withOwnReceivers(Result<ReceiverShading> shading, const LightFrame& frame,
-                                         LightLists& lists, std::string_view tilesKey,
-                                         std::span<const outlines::SubLight> subLights, OwnSurfaces which);
+/// Makes casting receivers of the plan's shading walk lists, for a fragment file that does so with
+/// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them. `tilesKey`: the setting that
+/// holds the number of tiles. `subLights`: those of the fragment file. Errors: outOfMemory (lists exceed the
+/// largest texture).
+Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLists& lists, std::string_view tilesKey,
+                       std::span<const outlines::SubLight> subLights, OwnSurfaces which);
 
 }  // namespace halfshadow::techniques

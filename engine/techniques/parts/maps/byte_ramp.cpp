@@ -11,7 +11,7 @@ constexpr const char* kName = "byte ramp";
 /// Texel (x, y): the high byte and a half bit come from x = floor(512·d), the low byte from
 /// y = floor(256·fract(256·d)). The two coordinates are interpolated separately, so near a border of the high
 /// byte they may disagree by one; the half bit tells which side is meant and corrects the high byte.
-std::vector<std::uint8_t> rampPixels() {
+Pixels rampPixels() {
   std::vector<std::uint8_t> pixels;
   pixels.reserve(512 * 256 * 4);
   for (int low = 0; low < 256; ++low) {
@@ -27,7 +27,7 @@ std::vector<std::uint8_t> rampPixels() {
                     {static_cast<std::uint8_t>(high), static_cast<std::uint8_t>(stored), 0, 255});
     }
   }
-  return pixels;
+  return std::make_shared<const std::vector<std::uint8_t>>(std::move(pixels));
 }
 }  // namespace
 

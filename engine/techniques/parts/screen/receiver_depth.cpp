@@ -10,39 +10,6 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Without facets; with planes of facets from the facet stream; and of receivers that cast, with codes of
-/// where these face, by derivatives or by the stream.
-struct DepthPrograms {
-  gl::Program* plain = nullptr;
-  gl::Program* planes = nullptr;
-  gl::Program* codes = nullptr;
-  gl::Program* planesAndCodes = nullptr;
-  gl::Program* of(const DrawItem& item) const {
-    const bool stream = planes != nullptr && item.mesh->hasFacetStream();
-    if (item.casts && planesAndCodes != nullptr) return stream ? planesAndCodes : codes;
-    return stream ? planes : plain;
-  }
-};
-
-Result<DepthPrograms> depthPrograms(const LightFrame& frame, ReceiverAlpha alpha) {
-  DepthPrograms programs;
-  const auto link = [&](std::vector<std::string> defines, gl::Program*& program) -> Status {
-    auto linked =
-        frame.programs.get({"screen/receiver_depth.vert", "screen/receiver_depth.frag", std::move(defines)});
-    if (!linked) return linked.error();
-    program = *linked;
-    return {};
-  };
-  if (Status s = link({}, programs.plain); !s) return s.error();
-  if (alpha == ReceiverAlpha::one) return programs;
-  if (Status s = link({"HS_FACET_NORMAL"}, programs.planes); !s) return s.error();
-  if (Status s = link({"HS_FACETS", "HS_FACET_NORMAL"}, programs.planesAndCodes); !s) return s.error();
-  if (!needsFacetStream(frame.capabilities)) {
-    if (Status s = link({"HS_FACETS"}, programs.codes); !s) return s.error();
-  }
-  return programs;
-}
-
 glm::dvec4 row(const glm::dmat4& m, int index) {
   return {m[0][index], m[1][index], m[2][index], m[3][index]};
 }
@@ -98,84 +65,76 @@ double nearestInView(const scene::Bounds& box, const View& view) {
   return nearest;
 }
 
-framegraph::ResourceId findResource(const framegraph::Graph& graph, const std::string& name) {
-  for (std::uint32_t i = 0; i < graph.resources().size(); ++i) {
-    if (graph.resources()[i].name == name) return {i};
-  }
-  return {};
-}
-void drawDepths(framegraph::PassContext& context, const DepthPrograms& programs, const ReceiverDepth& depth,
-                const View& view, std::span<const DrawItem> items) {
-  gl::Encoder& encoder = context.encoder;
-  gl::Context& gl = encoder.context();
+/// Plane and facet code of each item as `alpha` wants them.
+PlannedDraw depthDraw(const LightScene& scene, PassPlan& plan, const ReceiverDepth& depth,
+                      ReceiverAlpha alpha, std::span<const DrawItem> item) {
+  const DrawItem& drawn = item.front();
+  const View& view = scene.screen;
+  const bool facets = alpha == ReceiverAlpha::facets;
+  const bool planes = facets && drawn.facetStream, codes = facets && drawn.casts;
+  std::vector<std::string> defines;
+  if (codes) defines.push_back("HS_FACETS");
+  if (planes) defines.push_back("HS_FACET_NORMAL");
+  PlannedDraw draw{.program = plan.addProgram(
+                       {"screen/receiver_depth.vert", "screen/receiver_depth.frag", std::move(defines)})};
   // Unit scale keeps single precision in range for tiny and huge worlds.
   const double scale = 1.0 / depth.farthest;
-  const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(scale), view.eyeWorld);
-  const glm::mat3 pixelRay(glm::dmat3(rays.rayX, rays.rayY, rays.rayOrigin));
-  const bool marked = programs.planes == nullptr;
-  gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true}};
-  for (const DrawItem& item : items) {
-    gl::Program& program = *programs.of(item);
-    const bool stream = &program == programs.planes || &program == programs.planesAndCodes;
-    encoder.useProgram(program);
-    program.set(gl, "u_inverseFarthest", static_cast<float>(scale));
-    program.set(gl, "u_nearestReceiver", static_cast<float>(scale * depth.nearest));
-    program.set(gl, "u_clipFromObject", glm::mat4(depth.clipFromWorld * item.worldFromObject));
-    program.set(gl, "u_receiverMark", marked && hasFewTriangles(item) ? 128.0f : 254.75f);
-    if (&program != programs.plain) {
-      glm::dmat4 relative = item.worldFromObject;
-      relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
-      for (int column = 0; column < 4; ++column) {
-        relative[column] = glm::dvec4(scale * glm::dvec3(relative[column]), relative[column].w);
-      }
-      program.set(gl, "u_relativeFromObject", glm::mat4(relative));
+  draw.uniforms.set("u_inverseFarthest", static_cast<float>(scale));
+  draw.uniforms.set("u_nearestReceiver", static_cast<float>(scale * depth.nearest));
+  draw.uniforms.set("u_receiverMark", !facets && hasFewTriangles(drawn) ? 128.0f : 254.75f);
+  if (planes || codes) {
+    glm::dmat4 relative = drawn.worldFromObject;
+    relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
+    for (int column = 0; column < 4; ++column) {
+      relative[column] = glm::dvec4(scale * glm::dvec3(relative[column]), relative[column].w);
     }
-    if (stream) {
-      glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(item.worldFromObject));
-      normals /=
-          std::max(glm::length(normals[0]) + glm::length(normals[1]) + glm::length(normals[2]), 1e-300);
-      program.set(gl, "u_worldNormalFromObject", glm::mat3(normals));
-      program.set(gl, "u_pixelRay", pixelRay);
-    }
-    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
-    item.mesh->draw(encoder, state, stream ? GpuMesh::Streams::facet : GpuMesh::Streams::positions);
+    draw.uniforms.set("u_relativeFromObject", glm::mat4(relative));
   }
+  if (planes) {
+    glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(drawn.worldFromObject));
+    normals /= std::max(glm::length(normals[0]) + glm::length(normals[1]) + glm::length(normals[2]), 1e-300);
+    draw.uniforms.set("u_worldNormalFromObject", glm::mat3(normals));
+    const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(scale), view.eyeWorld);
+    draw.uniforms.set("u_pixelRay", glm::mat3(glm::dmat3(rays.rayX, rays.rayY, rays.rayOrigin)));
+  }
+  draw.state.depth = {.test = device::Compare::less, .write = true};
+  draw.what = MeshDraw{.items = item,
+                       .clipFromWorld = depth.clipFromWorld,
+                       .streams = planes ? MeshStreams::facet : MeshStreams::positions,
+                       .faces = MeshDraw::Faces::facing,
+                       .eyeWorld = view.eyeWorld,
+                       .nearReach = view.nearReach};
+  return draw;
 }
 }  // namespace
 
-Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha) {
+ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, ReceiverAlpha alpha) {
   const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";
   ReceiverDepth depth;
-  depth.clipFromWorld = withoutFarPlane(frame.screen.clipFromWorld);
-  const glm::dvec4 w = row(frame.screen.clipFromWorld, 3);
+  depth.clipFromWorld = withoutFarPlane(scene.screen.clipFromWorld);
+  const glm::dvec4 w = row(scene.screen.clipFromWorld, 3);
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
-  for (const DrawItem& item : frame.receivers) {
-    low = std::min(low, nearestInView(item.boundsWorld, frame.screen));
+  for (const DrawItem& item : scene.receivers) {
+    low = std::min(low, nearestInView(item.boundsWorld, scene.screen));
     for (const glm::dvec3& corner : item.boundsWorld.corners())
       high = std::max(high, glm::dot(w, glm::dvec4(corner, 1.0)));
   }
   depth.farthest = high > 0.0 ? high * (1.0 + 1e-6) : 1.0;
   depth.nearest = std::isfinite(low) ? std::clamp(0.999 * low, 0.0, depth.farthest) : 0.0;
-  depth.packed = findResource(frame.graph, name);
-  depth.depthTest = findResource(frame.graph, name + " test");
-  if (depth.packed.valid()) return depth;
-
-  auto programs = depthPrograms(frame, alpha);
-  if (!programs) return programs.error();
-  const int width = frame.screen.width, height = frame.screen.height;
-  depth.packed = frame.graph.addResource({.name = name, .width = width, .height = height});
-  depth.depthTest = frame.graph.addResource({.name = name + " test",
-                                             .width = width,
-                                             .height = height,
-                                             .format = framegraph::Format::depth24,
-                                             .storage = framegraph::Storage::renderbuffer});
-  framegraph::PassDesc pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
+  const int width = scene.screen.width, height = scene.screen.height;
+  depth.packed = plan.addSharedImage({.name = name, .width = width, .height = height});
+  depth.depthTest = plan.addSharedImage({.name = name + " test",
+                                         .width = width,
+                                         .height = height,
+                                         .format = framegraph::Format::depth24,
+                                         .storage = framegraph::Storage::renderbuffer});
+  PlannedPass pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
-  pass.execute = [programs = *programs, depth, &view = frame.screen,
-                  items = std::vector<DrawItem>(frame.receivers.begin(), frame.receivers.end())](
-                     framegraph::PassContext& context) { drawDepths(context, programs, depth, view, items); };
-  frame.graph.addPass(std::move(pass));
+  for (std::size_t i = 0; i < scene.receivers.size(); ++i)
+    pass.draws.push_back(depthDraw(scene, plan, depth, alpha, scene.receivers.subspan(i, 1)));
+  pass.drawsForAllLights = pass.draws.size();
+  plan.passes.push_back(std::move(pass));
   return depth;
 }
 
@@ -195,18 +154,15 @@ ReceiverRays receiverRays(const View& view, const ReceiverDepth& depth, const gl
           .rayY = ray[1] * (2.0 / view.height)};
 }
 
-void bindReceiverPosition(framegraph::PassContext& context, gl::Program& program, const ReceiverDepth& depth,
-                          const ReceiverRays& rays) {
-  gl::Encoder& encoder = context.encoder;
-  program.set(encoder.context(), "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
-  program.set(encoder.context(), "u_receiverRay",
-              glm::vec4(glm::vec3(rays.rayOrigin), static_cast<float>(depth.nearest / depth.farthest)));
-  program.set(encoder.context(), "u_receiverRayX",
-              glm::vec4(glm::vec3(rays.rayX), 1.0f / static_cast<float>(context.viewport.width)));
-  program.set(encoder.context(), "u_receiverRayY",
-              glm::vec4(glm::vec3(rays.rayY), 1.0f / static_cast<float>(context.viewport.height)));
-  const gl::TextureBinding binding{program.samplerUnit("u_receiverDepth"), &context.texture(depth.packed)};
-  encoder.bindTextures({&binding, 1});
+void addReceiverPosition(PlannedDraw& draw, const View& view, const ReceiverDepth& depth,
+                         const ReceiverRays& rays) {
+  draw.uniforms.set("u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
+  draw.uniforms.set("u_receiverRay",
+                    glm::vec4(glm::vec3(rays.rayOrigin), static_cast<float>(depth.nearest / depth.farthest)));
+  draw.uniforms.set("u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 1.0f / static_cast<float>(view.width)));
+  draw.uniforms.set("u_receiverRayY",
+                    glm::vec4(glm::vec3(rays.rayY), 1.0f / static_cast<float>(view.height)));
+  draw.textures.push_back({.sampler = "u_receiverDepth", .resource = depth.packed});
 }
 
 }  // namespace halfshadow::techniques

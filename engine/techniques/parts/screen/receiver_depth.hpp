@@ -5,7 +5,7 @@
 /// that works on the screen.
 #pragma once
 
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
 
@@ -30,8 +30,9 @@ enum class ReceiverAlpha {
           ///< planes
 };
 
-/// Declares the pass, or finds the one that an earlier light declared. Errors: shaderFailed.
-Result<ReceiverDepth> declareReceiverDepth(const LightFrame& frame, ReceiverAlpha alpha = ReceiverAlpha::one);
+/// Adds the pass, which all lights of a frame share.
+ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan,
+                                ReceiverAlpha alpha = ReceiverAlpha::one);
 
 /// A pixel's place in the coordinates (a, b, h) of a light is
 /// eye + distance · (rayOrigin + x · rayX + y · rayY), x and y its window coordinates, distance what is
@@ -43,7 +44,7 @@ struct ReceiverRays {
 ReceiverRays receiverRays(const View& view, const ReceiverDepth& depth, const glm::dmat3& lightFromWorld,
                           const glm::dvec3& lightCenterWorld);
 /// Uniforms and texture of receiver_position.glsl; the program is current.
-void bindReceiverPosition(framegraph::PassContext& context, gl::Program& program, const ReceiverDepth& depth,
-                          const ReceiverRays& rays);
+void addReceiverPosition(PlannedDraw& draw, const View& view, const ReceiverDepth& depth,
+                         const ReceiverRays& rays);
 
 }  // namespace halfshadow::techniques

@@ -6,8 +6,6 @@
 #include <array>
 #include <cmath>
 
-#include "techniques/parts/screen/receiver_depth.hpp"
-
 namespace halfshadow::techniques {
 namespace {
 /// Of a coordinate: a vertex rounded to single precision, by a matrix rounded likewise.
@@ -89,7 +87,7 @@ bool surfacesCoincide(const DrawItem& a, const DrawItem& b) {
 }
 
 bool CoincidentReceivers::coincide(const DrawItem& a, const DrawItem& b) {
-  Known& known = known_[{a.geometry, b.geometry}];
+  Known& known = known_[{a.object, b.object}];
   if (known.revisionA != a.revision || known.revisionB != b.revision)
     known = {a.revision, b.revision, surfacesCoincide(a, b)};
   return known.coincide;

@@ -9,7 +9,7 @@
 #include <span>
 #include <utility>
 
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/draw_item.hpp"
 
 namespace halfshadow::techniques {
 
@@ -30,7 +30,7 @@ class CoincidentReceivers {
     bool coincide = false;
   };
   bool coincide(const DrawItem& a, const DrawItem& b);
-  std::map<std::pair<const void*, const void*>, Known> known_;
+  std::map<std::pair<std::uint64_t, std::uint64_t>, Known> known_;
 };
 
 }  // namespace halfshadow::techniques

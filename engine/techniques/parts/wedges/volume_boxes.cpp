@@ -32,9 +32,9 @@ glm::dvec2 highWithin(const outlines::WedgeExtent& extent, double h, const Volum
 }
 }  // namespace
 
-double sidewaysReach(const LightFrame& frame, const scene::LightPlane& plane) {
+double sidewaysReach(const LightScene& scene, const scene::LightPlane& plane) {
   double farthest = 1.0;
-  for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
+  for (const auto items : {scene.casters, scene.receivers, scene.shadowlessReceivers}) {
     for (const DrawItem& item : items) {
       for (const glm::dvec3& corner : item.boundsWorld.corners()) {
         const glm::dvec3 abh = plane.fromWorld(corner);
@@ -84,27 +84,22 @@ bool eyeOutside(const outlines::WedgeExtent& extent, const VolumeReach& reach,
   return std::ranges::any_of(outside, [](bool side) { return side; });
 }
 
-Status uploadVolumes(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
-                     std::span<const std::byte> bytes) {
-  if (buffer) return buffer.update(context, bytes);
-  auto made = gl::Buffer::create(context, target, bytes, gl::BufferUsage::dynamicDraw);
-  if (!made) return made.error();
-  buffer = std::move(*made);
-  return {};
-}
-
-Status uploadVolumeIndices(gl::Context& context, gl::Buffer& buffer, std::size_t volumes,
-                           int verticesPerVolume) {
+std::uint32_t VolumeIndices::addTo(PassPlan& plan, std::uint64_t id, std::size_t volumes,
+                                   int verticesPerVolume) {
+  buffer_.id = id;
   volumes = std::min(volumes, volumesPerDraw(verticesPerVolume));
-  if (buffer && buffer.byteCount() >= volumes * kVolumeIndices * 2) return {};
-  std::vector<std::uint16_t> indices;
-  for (std::size_t volume = 0; volume < volumes; ++volume) {
-    for (const std::uint16_t index : kBox) {
-      indices.push_back(
-          static_cast<std::uint16_t>(volume * static_cast<std::size_t>(verticesPerVolume) + index));
+  if (volumes > buffer_.key) {
+    std::vector<std::uint16_t> indices;
+    for (std::size_t volume = 0; volume < volumes; ++volume) {
+      for (const std::uint16_t index : kBox) {
+        indices.push_back(
+            static_cast<std::uint16_t>(volume * static_cast<std::size_t>(verticesPerVolume) + index));
+      }
     }
+    buffer_.bytes = streamBytes(indices);
+    buffer_.key = volumes;
   }
-  return uploadVolumes(context, buffer, gl::BufferTarget::index, std::as_bytes(std::span(indices)));
+  return plan.addBuffer(buffer_);
 }
 
 }  // namespace halfshadow::techniques

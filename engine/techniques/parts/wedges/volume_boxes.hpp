@@ -9,7 +9,7 @@
 #include <span>
 
 #include "outlines/wedge_pieces.hpp"
-#include "techniques/execution/light_frame.hpp"
+#include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
 
@@ -26,7 +26,7 @@ struct VolumeReach {
 };
 /// Half side of a square of (a, b) around every receiver, at least twice as wide: a power of two, so that it
 /// seldom changes.
-double sidewaysReach(const LightFrame& frame, const scene::LightPlane& plane);
+double sidewaysReach(const LightScene& scene, const scene::LightPlane& plane);
 
 /// The extent at height h as (a, b, h), a little larger, so that rounding leaves no receiver outside.
 std::array<glm::dvec3, 4> volumeCorners(const outlines::WedgeExtent& extent, double h,
@@ -38,12 +38,22 @@ std::array<glm::dvec3, 5> eyeHull(const View& view, const scene::LightPlane& pla
 bool eyeOutside(const outlines::WedgeExtent& extent, const VolumeReach& reach,
                 const std::array<glm::dvec3, 5>& hull);
 
-/// Into `buffer`, made at the first call. Errors: outOfMemory.
-Status uploadVolumes(gl::Context& context, gl::Buffer& buffer, gl::BufferTarget target,
-                     std::span<const std::byte> bytes);
 /// The indices of a box, repeated for so many of them as one draw takes at most; counter-clockwise from
-/// outside. Grows only.
-Status uploadVolumeIndices(gl::Context& context, gl::Buffer& buffer, std::size_t volumes,
-                           int verticesPerVolume);
+/// outside.
+class VolumeIndices {
+ public:
+  /// Into the plan's buffers under `id`. Grows only.
+  std::uint32_t addTo(PassPlan& plan, std::uint64_t id, std::size_t volumes, int verticesPerVolume);
+
+ private:
+  PlannedBuffer buffer_{.kind = PlannedBuffer::Kind::indices};
+};
+
+/// Bytes of a stream of vertices.
+template <typename T>
+std::shared_ptr<const std::vector<std::byte>> streamBytes(const std::vector<T>& stream) {
+  const auto bytes = std::as_bytes(std::span<const T>(stream));
+  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
 
 }  // namespace halfshadow::techniques

@@ -8,33 +8,26 @@ using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
 using framegraph::ResourceId;
 
-std::string wedgePassName(const LightFrame& frame, const std::string& what) {
-  return "light " + std::to_string(frame.lightIndex) + " " + what;
-}
-
-ReceiverShading screenShading(const LightFrame& frame, ResourceId image, float steps) {
+ReceiverShading screenShading(const LightScene& scene, ResourceId image, float steps) {
   ReceiverShading shading;
   shading.fragmentFile = "wedge/screen_wedges.frag";
   shading.forward = false;
-  shading.mapFromWorld = heightFromWorld(frame);
+  shading.mapFromWorld = heightFromWorld(scene);
   shading.textures = {{.sampler = "u_wedges", .resource = image}};
   if (steps > 0.0f) shading.defines.push_back("HS_WEDGE_SUMS");
-  shading.setUniforms = [steps](gl::Program& program, gl::Context& context) {
-    program.set(context, "u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
-  };
+  shading.uniforms.set("u_wedgeSteps", glm::vec4(steps, 0, 0, 0));
   return shading;
 }
 
-ReceiverShading shareShading(const LightFrame& frame, ResourceId image) {
-  ReceiverShading shading = screenShading(frame, image, 0.0f);
+ReceiverShading shareShading(const LightScene& scene, ResourceId image) {
+  ReceiverShading shading = screenShading(scene, image, 0.0f);
   shading.defines = {"HS_WEDGE_SHARES"};
   return shading;
 }
 
-ResourceId screenImage(const LightFrame& frame, const std::string& name) {
-  return frame.graph.addResource({.name = "light " + std::to_string(frame.lightIndex) + " " + name,
-                                  .width = frame.screen.width,
-                                  .height = frame.screen.height});
+ResourceId screenImage(const LightScene& scene, PassPlan& plan, const std::string& name) {
+  return plan.addImage(
+      {.name = scene.name + " " + name, .width = scene.screen.width, .height = scene.screen.height});
 }
 
 std::vector<Attachment> wedgeTargets(ResourceId color, const ReceiverDepth& depth, InitialContent initial,
@@ -46,26 +39,16 @@ std::vector<Attachment> wedgeTargets(ResourceId color, const ReceiverDepth& dept
           {.resource = depth.depthTest, .point = AttachmentPoint::depth, .initial = InitialContent::keep}};
 }
 
-Result<PiecePrograms> piecePrograms(const LightFrame& frame, std::vector<std::string> defines) {
-  PiecePrograms programs;
-  for (gl::Program** program : {&programs.beyond, &programs.beside}) {
-    auto linked = frame.programs.get({"wedge/wedge_volume.vert", "wedge/wedge_piece.frag", defines});
-    if (!linked) return linked.error();
-    *program = *linked;
-    defines.push_back("HS_WEDGE_CLIP");
-  }
-  return programs;
-}
-
-void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs, const Wedges& wedges,
-                const View& view, std::span<const CasterRange> casters, const gl::BlendState& blend,
-                float steps) {
+void addVolumes(const LightScene& scene, PassPlan& plan, PlannedPass& pass, const Wedges& wedges,
+                std::vector<std::string> defines, std::span<const CasterRange> casters,
+                const device::BlendState& blend, float steps) {
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
-    gl::Program& program = part == WedgePart::beyond ? *programs.beyond : *programs.beside;
-    context.encoder.useProgram(program);
-    program.set(context.encoder.context(), "u_wedgeSteps",
-                glm::vec4(steps, wedges.volumes->trimmed ? 1.0f : 0.0f, 0, 0));
-    drawWedgeVolumes(context, program, *wedges.volumes, wedges.depth, view, casters, part, {.blend = blend});
+    if (part == WedgePart::beside) defines.push_back("HS_WEDGE_CLIP");
+    PlannedDraw draw{.program =
+                         plan.addProgram({"wedge/wedge_volume.vert", "wedge/wedge_piece.frag", defines})};
+    draw.uniforms.set("u_wedgeSteps", glm::vec4(steps, wedges.volumes->trimmed ? 1.0f : 0.0f, 0, 0));
+    draw.state.blend = blend;
+    addWedgeVolumes(pass, std::move(draw), *wedges.volumes, wedges.depth, scene.screen, casters, part);
   }
 }
 

@@ -12,38 +12,29 @@ namespace halfshadow::techniques {
 /// way; a piece is rounded to a step.
 inline constexpr float kStepsOfAll = 512.0f, kStepsOfOne = 1024.0f;
 
-inline constexpr gl::BlendState kAdd{
-    .enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
-inline constexpr gl::BlendState kMultiply{
-    .enabled = true, .source = gl::BlendFactor::zero, .destination = gl::BlendFactor::srcColor};
+inline constexpr device::BlendState kAdd{
+    .enabled = true, .source = device::BlendFactor::one, .destination = device::BlendFactor::one};
+inline constexpr device::BlendState kMultiply{
+    .enabled = true, .source = device::BlendFactor::zero, .destination = device::BlendFactor::srcColor};
 
 /// What the passes of one light share.
 struct Wedges {
   const WedgeVolumes* volumes = nullptr;
   ReceiverDepth depth;
 };
-struct PiecePrograms {
-  gl::Program* beside = nullptr;
-  gl::Program* beyond = nullptr;
-};
-/// Programs of wedge_piece.frag for both parts. Errors: shaderFailed.
-Result<PiecePrograms> piecePrograms(const LightFrame& frame, std::vector<std::string> defines);
+/// Adds both parts of the casters' volumes, drawn by wedge_piece.frag: `steps` of full coverage, blended.
+void addVolumes(const LightScene& scene, PassPlan& plan, PlannedPass& pass, const Wedges& wedges,
+                std::vector<std::string> defines, std::span<const CasterRange> casters,
+                const device::BlendState& blend, float steps);
 
-/// Draws both parts of the casters' volumes, `steps` of full coverage, blended.
-void addVolumes(framegraph::PassContext& context, const PiecePrograms& programs, const Wedges& wedges,
-                const View& view, std::span<const CasterRange> casters, const gl::BlendState& blend,
-                float steps);
-
-/// "light 0 what"
-std::string wedgePassName(const LightFrame& frame, const std::string& what);
-/// A colour image of the view's size.
-framegraph::ResourceId screenImage(const LightFrame& frame, const std::string& name);
+/// A colour image of the screen's size, under the light's name.
+framegraph::ResourceId screenImage(const LightScene& scene, PassPlan& plan, const std::string& name);
 /// `color` cleared to or kept as `initial`, with the receivers' depth test.
 std::vector<framegraph::Attachment> wedgeTargets(framegraph::ResourceId color, const ReceiverDepth& depth,
                                                  framegraph::InitialContent initial, float clear);
 /// Visibility from sums (`steps` > 0) or from an image of visibilities (0).
-ReceiverShading screenShading(const LightFrame& frame, framegraph::ResourceId image, float steps);
+ReceiverShading screenShading(const LightScene& scene, framegraph::ResourceId image, float steps);
 /// Visibility from the covered shares of the light's four quadrants.
-ReceiverShading shareShading(const LightFrame& frame, framegraph::ResourceId image);
+ReceiverShading shareShading(const LightScene& scene, framegraph::ResourceId image);
 
 }  // namespace halfshadow::techniques

@@ -12,6 +12,8 @@ namespace halfshadow::techniques {
 namespace {
 /// 7.5 MiB.
 constexpr std::size_t kMostFootprintVertices = 65536;
+/// Ids of buffers, before the receiver's own.
+constexpr std::uint64_t kFootprints = std::uint64_t{1} << 32;
 /// Volumes are taken a little larger than the receiver, so that it lies inside whatever rounding does.
 constexpr double kBeyondReceiver = 1e-3;
 
@@ -35,54 +37,56 @@ void forEachPiece(const WedgeVolumes& volumes, const WedgeGroup& group, auto vis
   }
 }
 
-std::span<const std::byte> bytesOf(const std::vector<outlines::FootprintVertex>& vertices) {
-  return std::as_bytes(std::span(vertices));
-}
-
-void drawFootprints(gl::Encoder& encoder, const gl::DrawState& state, const ReceiverDraw& draw) {
-  using gl::VertexAttribute;
+BufferDraw footprintDraw(const ReceiverDraw& draw, std::uint32_t buffer) {
+  using device::VertexAttribute;
   constexpr VertexAttribute kVectors[] = {VertexAttribute::extra0, VertexAttribute::extra1,
                                           VertexAttribute::extra2, VertexAttribute::extra3,
                                           VertexAttribute::extra4, VertexAttribute::normal};
   constexpr int kStride = sizeof(outlines::FootprintVertex);
-  const std::size_t offset = draw.range.first * kStride;
-  const gl::Buffer* buffer = &draw.receiver->footprints;
-  gl::AttributeBinding bindings[8];
-  bindings[0] = {VertexAttribute::position, buffer, 4, gl::AttributeType::float32, kStride, offset};
-  for (std::size_t i = 0; i < 6; ++i) {
-    bindings[i + 1] = {kVectors[i], buffer,
-                       4,           gl::AttributeType::float32,
-                       kStride,     offset + offsetof(outlines::FootprintVertex, x) + 16 * i};
-  }
-  bindings[7] = {VertexAttribute::texcoord,  buffer,  4,
-                 gl::AttributeType::float32, kStride, offset + offsetof(outlines::FootprintVertex, facet)};
-  encoder.draw(state, {.attributes = bindings, .count = draw.range.count});
+  BufferDraw footprints{.count = draw.range.count};
+  const auto add = [&](VertexAttribute attribute, std::size_t at) {
+    footprints.attributes.push_back({.attribute = attribute,
+                                     .buffer = buffer,
+                                     .components = 4,
+                                     .strideBytes = kStride,
+                                     .offsetBytes = draw.range.first * kStride + at});
+  };
+  add(VertexAttribute::position, 0);
+  for (std::size_t i = 0; i < 6; ++i) add(kVectors[i], offsetof(outlines::FootprintVertex, x) + 16 * i);
+  add(VertexAttribute::texcoord, offsetof(outlines::FootprintVertex, facet));
+  return footprints;
 }
 
-void setPiece(gl::Context& context, gl::Program& program, const WedgeVolumes& volumes, std::uint32_t index) {
+/// A plan has several passes that draw the same footprints.
+std::uint32_t addOnce(PassPlan& plan, const PlannedBuffer& buffer) {
+  const auto known = std::ranges::find(plan.buffers, buffer.id, &PlannedBuffer::id);
+  return known == plan.buffers.end() ? plan.addBuffer(buffer)
+                                     : static_cast<std::uint32_t>(known - plan.buffers.begin());
+}
+
+void setPiece(device::UniformList& uniforms, const WedgeVolumes& volumes, std::uint32_t index) {
   const outlines::WedgePiece& piece = volumes.pieces.pieces[index];
-  glm::vec4 coordinates[6];
+  std::vector<glm::vec4> coordinates(6);
   const glm::dvec3 anchor(0, 0, 1);
   for (std::uint32_t i = 0; i < outlines::kPieceVertices; ++i) {
     const glm::vec3 vertex(volumes.pieces.vertices[piece.firstVertex + std::min(i, piece.vertexCount - 1)] -
                            anchor);
-    for (int axis = 0; axis < 3; ++axis)
-      coordinates[2 * axis + static_cast<int>(i / 4)][static_cast<int>(i % 4)] = vertex[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      coordinates[2 * axis + i / 4][i % 4] = vertex[static_cast<int>(axis)];
   }
-  program.setArray(context, "u_piece", coordinates, 6);
-  program.set(context, "u_pieceInverseSize", static_cast<float>(1.0 / piece.size()));
+  uniforms.set("u_piece", std::move(coordinates));
+  uniforms.set("u_pieceInverseSize", static_cast<float>(1.0 / piece.size()));
 }
 }  // namespace
 
-Status WedgeReceivers::cut(const LightFrame& frame, const WedgeVolumes& volumes,
-                           std::span<const WedgeGroup> groups, const DrawItem& item,
-                           WedgeReceiver& receiver) {
+void WedgeReceivers::cut(const WedgeVolumes& volumes, std::span<const WedgeGroup> groups,
+                         const DrawItem& item, WedgeReceiver& receiver) {
   const outlines::ReceiverTriangles triangles(*item.sourceMesh, item.worldFromObject, volumes.plane);
   receiver.bounds = triangles.bounds;
   receiver.vertexCount = item.sourceMesh->positions.size();
   receiver.cut = hasFewTriangles(item);
   receiver.ranges.clear();
-  if (!receiver.cut) return {};
+  if (!receiver.cut) return;
   std::vector<outlines::FootprintVertex> stream;
   for (const WedgeGroup& group : groups) {
     outlines::Footprints footprints;
@@ -97,43 +101,38 @@ Status WedgeReceivers::cut(const LightFrame& frame, const WedgeVolumes& volumes,
   }
   if (stream.size() > kMostFootprintVertices) {
     receiver.cut = false;
-    return {};
+    return;
   }
-  if (stream.empty()) return {};
-  if (receiver.footprints) return receiver.footprints.update(frame.context, bytesOf(stream));
-  auto made = gl::Buffer::create(frame.context, gl::BufferTarget::vertex, bytesOf(stream),
-                                 gl::BufferUsage::dynamicDraw);
-  if (!made) return made.error();
-  receiver.footprints = std::move(*made);
-  return {};
+  receiver.footprints.id = kFootprints + item.object;
+  receiver.footprints.bytes = streamBytes(stream);
+  ++receiver.footprints.key;
 }
 
-Result<ReceiverDraws> WedgeReceivers::update(const LightFrame& frame, const WedgeVolumes& volumes,
-                                             std::span<const WedgeGroup> groups) {
+ReceiverDraws WedgeReceivers::update(const LightScene& scene, const WedgeVolumes& volumes,
+                                     std::span<const WedgeGroup> groups) {
   if (contentKey_ != volumes.contentKey) {
     // Objects that were removed go, too; what the camera does not see now is cut when it does.
     std::erase_if(receivers_, [&](const auto& kept) {
-      return std::ranges::none_of(frame.receivers,
-                                  [&](const DrawItem& item) { return item.geometry == kept.first; });
+      return std::ranges::none_of(scene.receivers,
+                                  [&](const DrawItem& item) { return item.object == kept.first; });
     });
-    for (auto& [geometry, receiver] : receivers_) receiver.revision = 0;
+    for (auto& [object, receiver] : receivers_) receiver.revision = 0;
     contentKey_ = volumes.contentKey;
   }
-  for (const DrawItem& item : frame.receivers) {
-    WedgeReceiver& receiver = receivers_[item.geometry];
+  for (const DrawItem& item : scene.receivers) {
+    WedgeReceiver& receiver = receivers_[item.object];
     if (receiver.revision == item.revision) continue;
-    receiver.revision = 0;
-    if (Status s = cut(frame, volumes, groups, item, receiver); !s) return s.error();
+    cut(volumes, groups, item, receiver);
     receiver.revision = item.revision;
   }
 
-  const View& view = frame.screen;
+  const View& view = scene.screen;
   const glm::dmat4 clipFromLight = view.clipFromWorld * outlines::worldFromLight(volumes.plane);
   ReceiverDraws draws;
   draws.groups.resize(groups.size());
-  for (std::size_t i = 0; i < frame.receivers.size(); ++i) {
-    const DrawItem& item = frame.receivers[i];
-    const WedgeReceiver& receiver = receivers_[item.geometry];
+  for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
+    const DrawItem& item = scene.receivers[i];
+    const WedgeReceiver& receiver = receivers_[item.object];
     if (hasFewTriangles(item) && !receiver.cut) draws.allCut = false;
     const auto corners = item.boundsWorld.corners();
     const auto itemRect = outlines::screenBounds(corners, view.clipFromWorld, view.width, view.height);
@@ -179,16 +178,16 @@ void keepFootprints(ReceiverDraws& draws) {
   draws.wholeDraws = draws.wholeVertices = 0;
 }
 
-VolumeEnds volumeEnds(const LightFrame& frame, const WedgeVolumes& volumes) {
+VolumeEnds volumeEnds(const LightScene& scene, const WedgeVolumes& volumes) {
   // Those in view come and go with the camera, but nearly all are casters or cast nothing.
-  std::map<const void*, const DrawItem*> dense;
-  for (const auto items : {frame.casters, frame.shadowlessReceivers, frame.receivers}) {
+  std::map<std::uint64_t, const DrawItem*> dense;
+  for (const auto items : {scene.casters, scene.shadowlessReceivers, scene.receivers}) {
     for (const DrawItem& item : items) {
-      if (item.receives && !hasFewTriangles(item)) dense[item.geometry] = &item;
+      if (item.receives && !hasFewTriangles(item)) dense[item.object] = &item;
     }
   }
   VolumeEnds ends{.heights = std::vector<double>(volumes.pieces.pieces.size(), 0.0), .key = 1};
-  for (const auto& [geometry, item] : dense) {
+  for (const auto& [object, item] : dense) {
     ends.key = combineKeys(ends.key, item->revision);
     outlines::LightBox bounds;
     for (const glm::dvec3& corner : item->boundsWorld.corners())
@@ -206,73 +205,64 @@ bool snapsCoarsely(const device::Capabilities& capabilities) {
          capabilities.limits.subpixelBits < kEnoughSubpixelBits;
 }
 
-Result<ReceiverWedgePrograms> receiverWedgePrograms(const LightFrame& frame,
-                                                    const std::vector<std::string>& defines) {
-  ReceiverWedgePrograms programs;
-  for (const bool cut : {false, true}) {
-    for (const bool beyond : {false, true}) {
-      std::vector<std::string> variant = defines;
-      if (cut) variant.push_back("HS_WEDGE_FOOTPRINT");
-      if (cut && snapsCoarsely(frame.capabilities)) variant.push_back("HS_WEDGE_EXACT");
-      if (!beyond) variant.push_back("HS_WEDGE_CLIP");
-      auto linked = frame.programs.get({"wedge/wedge_receiver.vert", "wedge/wedge_receiver.frag", variant});
-      if (!linked) return linked.error();
-      programs.byKind[cut][beyond] = *linked;
-    }
-  }
-  return programs;
+PlannedDraw receiverSurfaces(const LightScene& scene, PassPlan& plan) {
+  PlannedDraw draw{.program =
+                       plan.addProgram({"screen/receiver_depth.vert", "screen/receiver_depth.frag", {}})};
+  draw.state.depth = {.test = device::Compare::less, .write = true};
+  draw.state.colorMask.fill(false);
+  draw.what = MeshDraw{.items = scene.receivers,
+                       .clipFromWorld = scene.screen.clipFromWorld,
+                       .faces = MeshDraw::Faces::facing,
+                       .eyeWorld = scene.screen.eyeWorld,
+                       .nearReach = scene.screen.nearReach};
+  return draw;
 }
 
-void drawReceiverDepth(framegraph::PassContext& context, gl::Program& program, const View& view,
-                       std::span<const DrawItem> items) {
-  gl::Encoder& encoder = context.encoder;
-  encoder.useProgram(program);
-  gl::DrawState state{.depth = {.test = gl::Compare::less, .write = true},
-                      .colorMask = {false, false, false, false}};
-  for (const DrawItem& item : items) {
-    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
-    program.set(encoder.context(), "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
-    item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
-  }
-}
-
-void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePrograms& programs,
-                        const WedgeVolumes& volumes, const View& view, const glm::dmat4& clipFromWorld,
-                        std::span<const DrawItem> items, std::span<const ReceiverDraw> draws,
-                        const gl::BlendState& blend, float steps) {
-  gl::Encoder& encoder = context.encoder;
-  gl::Context& gl = encoder.context();
+void addReceiverWedges(const LightScene& scene, PassPlan& plan, PlannedPass& pass,
+                       const WedgeVolumes& volumes, std::span<const ReceiverDraw> draws,
+                       const ReceiverWedges& how) {
+  const View& view = scene.screen;
   // Subtracted in double: from a far light the places of receivers differ by little.
   const glm::dmat4 anchorFromWorld = glm::inverse(outlines::worldFromAnchor(volumes.plane));
   const ReceiverRays rays = receiverRays(view, {}, volumes.plane.axes, volumes.plane.unitHeightWorld());
   const double least = kNearOfDistance / glm::length(volumes.plane.toUnitHeight);
-  gl::Program* current = nullptr;
+  std::map<std::uint64_t, std::uint32_t> buffers;  // by receiver
   for (const ReceiverDraw& draw : draws) {
-    const DrawItem& item = items[draw.item];
-    gl::Program& program = *programs.byKind[draw.receiver->cut][draw.part == WedgePart::beyond];
-    if (&program != current) {
-      current = &program;
-      encoder.useProgram(program);
-      program.set(gl, "u_wedgeSteps", glm::vec4(steps, least, 0, 0));
-      program.set(gl, "u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
-      program.set(gl, "u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
-      program.set(gl, "u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 0.0f));
-      program.set(gl, "u_receiverRayY", glm::vec4(glm::vec3(rays.rayY), 0.0f));
-    }
-    program.set(gl, "u_clipFromObject", glm::mat4(clipFromWorld * item.worldFromObject));
-    gl::DrawState state{.depth = {.test = gl::Compare::lequal},
-                        .cull = hiddenFaces(item, view.eyeWorld, view.nearReach),
-                        .blend = blend};
-    program.set(gl, "u_lightFromObject", glm::mat4(anchorFromWorld * item.worldFromObject));
-    if (draw.receiver->cut) {
-      state.polygonOffset = footprintOffset(gl.capabilities());
-      drawFootprints(encoder, state, draw);
+    const DrawItem& item = scene.receivers[draw.item];
+    const bool cut = draw.receiver->cut;
+    std::vector<std::string> defines = how.defines;
+    if (cut) defines.push_back("HS_WEDGE_FOOTPRINT");
+    if (cut && snapsCoarsely(scene.capabilities)) defines.push_back("HS_WEDGE_EXACT");
+    if (draw.part == WedgePart::beside) defines.push_back("HS_WEDGE_CLIP");
+    PlannedDraw planned{.program = plan.addProgram(
+                            {"wedge/wedge_receiver.vert", "wedge/wedge_receiver.frag", std::move(defines)})};
+    device::UniformList& uniforms = planned.uniforms;
+    uniforms.set("u_wedgeSteps", glm::vec4(how.steps, least, 0, 0));
+    uniforms.set("u_receiverEye", glm::vec4(glm::vec3(rays.eye), 0.0f));
+    uniforms.set("u_receiverRay", glm::vec4(glm::vec3(rays.rayOrigin), 0.0f));
+    uniforms.set("u_receiverRayX", glm::vec4(glm::vec3(rays.rayX), 0.0f));
+    uniforms.set("u_receiverRayY", glm::vec4(glm::vec3(rays.rayY), 0.0f));
+    uniforms.set("u_clipFromObject", glm::mat4(how.clipFromWorld * item.worldFromObject));
+    uniforms.set("u_lightFromObject", glm::mat4(anchorFromWorld * item.worldFromObject));
+    planned.state.depth = {.test = device::Compare::lequal};
+    planned.state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
+    planned.state.blend = how.blend;
+    if (cut) {
+      const auto [known, added] = buffers.try_emplace(item.object, 0u);
+      if (added) known->second = addOnce(plan, draw.receiver->footprints);
+      planned.state.polygonOffset = footprintOffset(scene.capabilities);
+      planned.what = footprintDraw(draw, known->second);
     } else {
-      setPiece(gl, program, volumes, draw.piece);
-      state.polygonOffset = kWholeOffset;
-      state.scissor = draw.scissor;
-      item.mesh->draw(encoder, state, GpuMesh::Streams::positions);
+      setPiece(uniforms, volumes, draw.piece);
+      planned.state.polygonOffset = kWholeOffset;
+      planned.state.scissor = draw.scissor;
+      planned.what = MeshDraw{.items = scene.receivers.subspan(draw.item, 1),
+                              .clipFromWorld = how.clipFromWorld,
+                              .faces = MeshDraw::Faces::facing,
+                              .eyeWorld = view.eyeWorld,
+                              .nearReach = view.nearReach};
     }
+    pass.draws.push_back(std::move(planned));
   }
 }
 

@@ -25,7 +25,7 @@ struct WedgeReceiver {
   outlines::LightBox bounds;
   std::size_t vertexCount = 0;  ///< of the mesh
   bool cut = false;             ///< to footprints; else it is drawn whole
-  gl::Buffer footprints;
+  PlannedBuffer footprints;
   struct Range {
     std::size_t first = 0, count = 0;
   };
@@ -39,7 +39,7 @@ struct ReceiverDraw {
   const WedgeReceiver* receiver = nullptr;
   WedgeReceiver::Range range;  ///< of receiver->footprints
   std::uint32_t piece = 0;     ///< of receivers drawn whole
-  gl::Rect scissor;            ///< of receivers drawn whole: what the piece's volume can touch
+  Rect scissor;                ///< of receivers drawn whole: what the piece's volume can touch
 };
 
 /// What a frame draws for each group.
@@ -53,28 +53,20 @@ struct ReceiverDraws {
 class WedgeReceivers {
  public:
   /// Cuts receivers that are new or moved, or all when the wedges changed, and lists the frame's draws in an
-  /// order of few program changes. Pointers hold until the next update. Errors: outOfMemory.
-  Result<ReceiverDraws> update(const LightFrame& frame, const WedgeVolumes& volumes,
-                               std::span<const WedgeGroup> groups);
+  /// order of few program changes. Pointers hold until the next update.
+  ReceiverDraws update(const LightScene& scene, const WedgeVolumes& volumes,
+                       std::span<const WedgeGroup> groups);
 
  private:
-  Status cut(const LightFrame& frame, const WedgeVolumes& volumes, std::span<const WedgeGroup> groups,
-             const DrawItem& item, WedgeReceiver& receiver);
+  void cut(const WedgeVolumes& volumes, std::span<const WedgeGroup> groups, const DrawItem& item,
+           WedgeReceiver& receiver);
   std::uint64_t contentKey_ = 0;
-  std::map<const void*, WedgeReceiver> receivers_;  ///< by the object's geometry
+  std::map<std::uint64_t, WedgeReceiver> receivers_;  ///< by DrawItem::object
 };
 
 /// Whether this device's rasteriser moves vertices so much that narrow penumbrae show it.
 /// outlines::Footprints then find their place by the pixel's ray, which only fragments with highp can.
 bool snapsCoarsely(const device::Capabilities& capabilities);
-
-/// Programs of wedge_receiver.frag: of footprints and of whole receivers, for both parts.
-struct ReceiverWedgePrograms {
-  gl::Program* byKind[2][2] = {};  ///< [cut][beyond]
-};
-/// Errors: shaderFailed.
-Result<ReceiverWedgePrograms> receiverWedgePrograms(const LightFrame& frame,
-                                                    const std::vector<std::string>& defines);
 
 /// Leaves the draws of receivers with footprints.
 void keepFootprints(ReceiverDraws& draws);
@@ -85,17 +77,21 @@ struct VolumeEnds {
   std::vector<double> heights;
   std::uint64_t key = 0;
 };
-VolumeEnds volumeEnds(const LightFrame& frame, const WedgeVolumes& volumes);
+VolumeEnds volumeEnds(const LightScene& scene, const WedgeVolumes& volumes);
 
 /// Fills the depth attachment with the visible surfaces; writes no colour.
-void drawReceiverDepth(framegraph::PassContext& context, gl::Program& program, const View& view,
-                       std::span<const DrawItem> items);
+PlannedDraw receiverSurfaces(const LightScene& scene, PassPlan& plan);
 
-/// Draws where the surface is the visible one, `steps` of full coverage, blended. `clipFromWorld`: what the
-/// depth attachment was drawn with.
-void drawReceiverWedges(framegraph::PassContext& context, const ReceiverWedgePrograms& programs,
-                        const WedgeVolumes& volumes, const View& view, const glm::dmat4& clipFromWorld,
-                        std::span<const DrawItem> items, std::span<const ReceiverDraw> draws,
-                        const gl::BlendState& blend, float steps);
+/// How wedges are drawn with the receivers.
+struct ReceiverWedges {
+  std::vector<std::string> defines;  ///< of wedge_receiver.frag
+  glm::dmat4 clipFromWorld{1.0};     ///< what the depth attachment was drawn with
+  device::BlendState blend;
+  float steps = 0.0f;  ///< of full coverage
+};
+/// Draws where the surface is the visible one.
+void addReceiverWedges(const LightScene& scene, PassPlan& plan, PlannedPass& pass,
+                       const WedgeVolumes& volumes, std::span<const ReceiverDraw> draws,
+                       const ReceiverWedges& how);
 
 }  // namespace halfshadow::techniques

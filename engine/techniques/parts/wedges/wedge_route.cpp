@@ -6,7 +6,6 @@ namespace halfshadow::techniques {
 namespace {
 using framegraph::AttachmentPoint;
 using framegraph::InitialContent;
-using framegraph::PassDesc;
 
 /// Draws of whole receivers, and vertices that they process, up to which `auto` lets receivers carry the
 /// silhouettes.
@@ -15,11 +14,8 @@ constexpr std::size_t kMostDraws = 64, kMostVertices = 65536;
 std::vector<WedgeGroup> allTogether(const outlines::WedgePieces& pieces) {
   return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
 }
-gl::BlendState blendOf(WedgeMix mix) {
+device::BlendState blendOf(WedgeMix mix) {
   return mix == WedgeMix::add ? kAdd : kMultiply;
-}
-std::vector<DrawItem> itemsOf(const LightFrame& frame) {
-  return {frame.receivers.begin(), frame.receivers.end()};
 }
 std::vector<std::string> definesOf(WedgeMix mix) {
   if (mix == WedgeMix::multiply) return {"HS_WEDGE_MULTIPLY"};
@@ -41,56 +37,43 @@ SettingInfo routeSetting(const std::string& key) {
       "devices with highp that snap vertices coarsely"};
 }
 
-Status WedgeRoute::declareGroup(const LightFrame& frame, std::size_t index, const std::string& name,
-                                const GroupTarget& target, const std::string& again) {
-  PassDesc pass{.name = wedgePassName(frame, name),
-                .stage = framegraph::PassStage::receiverPrepass,
-                .rebindReason = again};
-  if (!depth_) return addReceiverPass(frame, std::move(pass), index, target);
-  return addScreenPass(frame, std::move(pass), index, target);
-}
-
-Status WedgeRoute::addScreenPass(const LightFrame& frame, PassDesc pass, std::size_t index,
-                                 const GroupTarget& target) {
-  auto programs = piecePrograms(frame, definesOf(target.mix));
-  if (!programs) return programs.error();
-  std::vector<ReceiverDraw> footprints;
-  ReceiverWedgePrograms footprintPrograms;
-  if (draws_ && !draws_->groups[index].empty()) {
-    auto linked = receiverWedgePrograms(frame, definesOf(target.mix));
-    if (!linked) return linked.error();
-    footprintPrograms = *linked;
-    footprints = draws_->groups[index];
+void WedgeRoute::addGroup(const LightScene& scene, PassPlan& plan, std::size_t index, const std::string& name,
+                          const GroupTarget& target, const std::string& again) {
+  PlannedPass pass{.name = scene.name + " " + name,
+                   .stage = framegraph::PassStage::receiverPrepass,
+                   .rebindReason = again};
+  if (depth_) {
+    drawOnScreen(scene, plan, pass, index, target);
+  } else {
+    drawByReceivers(scene, plan, pass, index, target);
   }
-  const Wedges wedges{volumes_, *depth_};
-  pass.reads = {depth_->packed};
-  pass.writes = wedgeTargets(target.color, *depth_, InitialContent::clear, target.clear);
-  pass.execute = [programs = *programs, wedges, &view = frame.screen, group = groups_[index], target,
-                  footprintPrograms, footprints, items = itemsOf(frame)](framegraph::PassContext& context) {
-    if (wedges.volumes->lightEnclosed) return;
-    drawReceiverWedges(context, footprintPrograms, *wedges.volumes, view, wedges.depth.clipFromWorld, items,
-                       footprints, blendOf(target.mix), target.steps);
-    addVolumes(context, programs, wedges, view, group, blendOf(target.mix), target.steps);
-  };
-  frame.graph.addPass(std::move(pass));
-  return {};
+  plan.passes.push_back(std::move(pass));
 }
 
-Status WedgeRoute::addReceiverPass(const LightFrame& frame, PassDesc pass, std::size_t index,
-                                   const GroupTarget& target) {
-  auto programs = receiverWedgePrograms(frame, definesOf(target.mix));
-  if (!programs) return programs.error();
+void WedgeRoute::drawOnScreen(const LightScene& scene, PassPlan& plan, PlannedPass& pass, std::size_t index,
+                              const GroupTarget& target) const {
+  pass.writes = wedgeTargets(target.color, *depth_, InitialContent::clear, target.clear);
+  if (volumes_->lightEnclosed) return;
+  if (draws_) {
+    addReceiverWedges(scene, plan, pass, *volumes_, draws_->groups[index],
+                      {.defines = definesOf(target.mix),
+                       .clipFromWorld = depth_->clipFromWorld,
+                       .blend = blendOf(target.mix),
+                       .steps = target.steps});
+  }
+  addVolumes(scene, plan, pass, {volumes_, *depth_}, definesOf(target.mix), groups_[index],
+             blendOf(target.mix), target.steps);
+}
+
+void WedgeRoute::drawByReceivers(const LightScene& scene, PassPlan& plan, PlannedPass& pass,
+                                 std::size_t index, const GroupTarget& target) {
   const bool first = !depthBuffer_.valid();
-  gl::Program* depthProgram = nullptr;
   if (first) {
-    auto linked = frame.programs.get({"screen/receiver_depth.vert", "screen/receiver_depth.frag", {}});
-    if (!linked) return linked.error();
-    depthProgram = *linked;
-    depthBuffer_ = frame.graph.addResource({.name = wedgePassName(frame, "wedge depth"),
-                                            .width = frame.screen.width,
-                                            .height = frame.screen.height,
-                                            .format = framegraph::Format::depth24,
-                                            .storage = framegraph::Storage::renderbuffer});
+    depthBuffer_ = plan.addImage({.name = scene.name + " wedge depth",
+                                  .width = scene.screen.width,
+                                  .height = scene.screen.height,
+                                  .format = framegraph::Format::depth24,
+                                  .storage = framegraph::Storage::renderbuffer});
   }
   const float clear = target.clear;
   pass.writes = {{.resource = target.color,
@@ -100,69 +83,54 @@ Status WedgeRoute::addReceiverPass(const LightFrame& frame, PassDesc pass, std::
                  {.resource = depthBuffer_,
                   .point = AttachmentPoint::depth,
                   .initial = first ? InitialContent::clear : InitialContent::keep}};
-  pass.execute = [programs = *programs, depthProgram, volumes = volumes_, &view = frame.screen,
-                  items = itemsOf(frame), draws = draws_->groups[index],
-                  target](framegraph::PassContext& context) {
-    if (volumes->lightEnclosed) return;
-    if (depthProgram) drawReceiverDepth(context, *depthProgram, view, items);
-    drawReceiverWedges(context, programs, *volumes, view, view.clipFromWorld, items, draws,
-                       blendOf(target.mix), target.steps);
-  };
-  frame.graph.addPass(std::move(pass));
-  return {};
+  if (volumes_->lightEnclosed) return;
+  if (first) pass.draws.push_back(receiverSurfaces(scene, plan));
+  addReceiverWedges(scene, plan, pass, *volumes_, draws_->groups[index],
+                    {.defines = definesOf(target.mix),
+                     .clipFromWorld = scene.screen.clipFromWorld,
+                     .blend = blendOf(target.mix),
+                     .steps = target.steps});
 }
 
-Result<WedgeRoute> WedgeRoutes::choose(const LightFrame& frame, std::string_view setting, Grouping grouping) {
+WedgeRoute WedgeRoutes::choose(const LightScene& scene, PassPlan& plan, std::string_view setting,
+                               Grouping grouping) {
   WedgeRoute route;
-  route.volumes_ = volumes_.updatePieces(frame);
+  route.volumes_ = &volumes_.updatePieces(scene);
   route.groups_ = grouping(route.volumes_->pieces);
   VolumeEnds ends;
-  if (setting != "screen" && coincident_.among(frame.receivers)) {
-    frame.graph.noteSkipped(wedgePassName(frame, "wedges drawn by receivers"),
-                            "surfaces of receivers coincide: both would be drawn on one pixel");
+  if (setting != "screen" && coincident_.among(scene.receivers)) {
+    plan.note(scene.name + " wedges drawn by receivers",
+              "surfaces of receivers coincide: both would be drawn on one pixel");
   } else if (setting != "screen") {
-    const std::size_t mostDraws = snapsCoarsely(frame.capabilities) ? 0 : kMostDraws;
-    auto draws = receivers_[frame.lightIndex].update(frame, *route.volumes_, route.groups_);
-    if (!draws) return draws.error();
-    const std::string count = std::to_string(draws->wholeDraws) + " draws of receivers with many triangles";
-    if (setting == "receivers" || (draws->wholeDraws <= mostDraws && draws->wholeVertices <= kMostVertices)) {
-      frame.graph.noteSkipped(wedgePassName(frame, "wedge volumes"),
-                              "receivers carry the projected silhouettes, with " + count);
-      route.draws_ = std::move(*draws);
+    const std::size_t mostDraws = snapsCoarsely(scene.capabilities) ? 0 : kMostDraws;
+    ReceiverDraws draws = receivers_.update(scene, *route.volumes_, route.groups_);
+    const std::string count = std::to_string(draws.wholeDraws) + " draws of receivers with many triangles";
+    if (setting == "receivers" || (draws.wholeDraws <= mostDraws && draws.wholeVertices <= kMostVertices)) {
+      plan.note(scene.name + " wedge volumes", "receivers carry the projected silhouettes, with " + count);
+      route.draws_ = std::move(draws);
       return route;
     }
-    if (draws->allCut) {
-      frame.graph.noteSkipped(wedgePassName(frame, "wedge volumes for receivers of few triangles"),
-                              "they carry the projected silhouettes; others would take " + count);
-      keepFootprints(*draws);
-      route.draws_ = std::move(*draws);
-      ends = volumeEnds(frame, *route.volumes_);
+    if (draws.allCut) {
+      plan.note(scene.name + " wedge volumes for receivers of few triangles",
+                "they carry the projected silhouettes; others would take " + count);
+      keepFootprints(draws);
+      route.draws_ = std::move(draws);
+      ends = volumeEnds(scene, *route.volumes_);
     } else {
-      frame.graph.noteSkipped(wedgePassName(frame, "wedges drawn by receivers"),
-                              "too many pieces of silhouette reach them");
+      plan.note(scene.name + " wedges drawn by receivers", "too many pieces of silhouette reach them");
     }
   }
-  auto depth = declareReceiverDepth(frame);
-  if (!depth) return depth.error();
-  if (Status s = volumes_.upload(frame, *depth, ends.heights, ends.key); !s) return s.error();
-  route.depth_ = *depth;
+  route.depth_ = planReceiverDepth(scene, plan);
+  volumes_.addBuffers(scene, plan, *route.depth_, ends.heights, ends.key);
   return route;
 }
 
-Result<ReceiverShading> WedgeRoutes::declareSums(const LightFrame& frame, std::string_view setting) {
-  auto route = choose(frame, setting, allTogether);
-  if (!route) return route.error();
-  const framegraph::ResourceId sums = screenImage(frame, "wedge sums");
-  if (Status s = route->declareGroup(frame, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {}); !s)
-    return s.error();
+void WedgeRoutes::planSums(const LightScene& scene, PassPlan& plan, std::string_view setting) {
+  WedgeRoute route = choose(scene, plan, setting, allTogether);
+  const framegraph::ResourceId sums = screenImage(scene, plan, "wedge sums");
+  route.addGroup(scene, plan, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {});
   // Nothing drawn reads as visibility 0.
-  return screenShading(frame, sums, route->volumes().lightEnclosed ? 0.0f : kStepsOfAll);
-}
-
-void WedgeRoutes::contextLost() {
-  volumes_.contextLost();
-  receivers_.clear();
-  coincident_ = {};
+  plan.shading = screenShading(scene, sums, route.volumes().lightEnclosed ? 0.0f : kStepsOfAll);
 }
 
 }  // namespace halfshadow::techniques

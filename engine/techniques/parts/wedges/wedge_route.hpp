@@ -31,17 +31,17 @@ struct GroupTarget {
 class WedgeRoute {
  public:
   const WedgeVolumes& volumes() const { return *volumes_; }
-  /// Declares the pass of `groups[index]`; passes are declared in the order of the groups. `again`: why the
-  /// target is bound another time, empty the first time. Errors: shaderFailed.
-  Status declareGroup(const LightFrame& frame, std::size_t index, const std::string& name,
-                      const GroupTarget& target, const std::string& again);
+  /// Adds the pass of `groups[index]`; passes are added in the order of the groups. `again`: why the target
+  /// is bound another time, empty the first time.
+  void addGroup(const LightScene& scene, PassPlan& plan, std::size_t index, const std::string& name,
+                const GroupTarget& target, const std::string& again);
 
  private:
   friend class WedgeRoutes;
-  Status addScreenPass(const LightFrame& frame, framegraph::PassDesc pass, std::size_t index,
+  void drawOnScreen(const LightScene& scene, PassPlan& plan, PlannedPass& pass, std::size_t index,
+                    const GroupTarget& target) const;
+  void drawByReceivers(const LightScene& scene, PassPlan& plan, PlannedPass& pass, std::size_t index,
                        const GroupTarget& target);
-  Status addReceiverPass(const LightFrame& frame, framegraph::PassDesc pass, std::size_t index,
-                         const GroupTarget& target);
   const WedgeVolumes* volumes_ = nullptr;
   std::vector<WedgeGroup> groups_;
   std::optional<ReceiverDepth> depth_;  ///< on the screen
@@ -49,7 +49,7 @@ class WedgeRoute {
   framegraph::ResourceId depthBuffer_;  ///< of the receivers' passes
 };
 
-/// Makes routes, and keeps between frames what they share.
+/// Makes routes for a light, and keeps between frames what they share.
 class WedgeRoutes {
  public:
   /// Which casters are drawn together.
@@ -58,17 +58,16 @@ class WedgeRoutes {
   /// silhouettes; so do all others where that takes at most 64 draws and 65,536 vertices (none where the
   /// device snapsCoarsely()), else they meet volumes that end behind them. Where receivers coincide, each of
   /// them would take what their pixels are to get once: then all is drawn on the screen. The frame's notes
-  /// tell. Errors: outOfMemory, shaderFailed.
-  Result<WedgeRoute> choose(const LightFrame& frame, std::string_view setting, Grouping grouping);
-  /// Adds up all casters in one pass: exact where one caster shadows a receiver. Errors: those of choose().
-  Result<ReceiverShading> declareSums(const LightFrame& frame, std::string_view setting);
+  /// tell.
+  WedgeRoute choose(const LightScene& scene, PassPlan& plan, std::string_view setting, Grouping grouping);
+  /// Adds up all casters in one pass: exact where one caster shadows a receiver. Makes the plan's shading.
+  void planSums(const LightScene& scene, PassPlan& plan, std::string_view setting);
   /// What choose() groups.
-  const WedgeVolumes& volumes(const LightFrame& frame) { return *volumes_.updatePieces(frame); }
-  void contextLost();
+  const WedgeVolumes& volumes(const LightScene& scene) { return volumes_.updatePieces(scene); }
 
  private:
   WedgeVolumeCache volumes_;
-  std::map<int, WedgeReceivers> receivers_;
+  WedgeReceivers receivers_;
   CoincidentReceivers coincident_;
 };
 

@@ -47,9 +47,9 @@ struct Vertex {
 };
 constexpr int kStride = sizeof(Vertex);
 
-double farthestReceiver(const LightFrame& frame, const scene::LightPlane& plane) {
+double farthestReceiver(const LightScene& scene, const scene::LightPlane& plane) {
   double farthest = 0.0;
-  for (const auto items : {frame.casters, frame.receivers, frame.shadowlessReceivers}) {
+  for (const auto items : {scene.casters, scene.receivers, scene.shadowlessReceivers}) {
     for (const DrawItem& item : items) {
       for (const glm::dvec3& corner : item.boundsWorld.corners()) {
         farthest = std::max(farthest, plane.fromWorld(corner).z);
@@ -114,66 +114,66 @@ double lengthKept(const WedgeVolumes& volumes, std::span<const double> ends) {
   return kept / std::max(whole, 1e-300);
 }
 
-std::uint64_t keyOf(const LightFrame& frame, double farthest, double reach) {
-  return combineKeys(combineKeys(frame.contentKey, std::bit_cast<std::uint64_t>(farthest)),
+std::uint64_t keyOf(const LightScene& scene, double farthest, double reach) {
+  return combineKeys(combineKeys(scene.contentKey, std::bit_cast<std::uint64_t>(farthest)),
                      std::bit_cast<std::uint64_t>(reach));
 }
 
-void drawPieces(gl::Encoder& encoder, const WedgeVolumes& volumes, const gl::DrawState& state, WedgePart part,
-                std::size_t first, std::size_t count) {
-  using gl::VertexAttribute;
+void addPieces(PlannedPass& pass, const PlannedDraw& draw, const WedgeVolumes& volumes, WedgePart part,
+               std::size_t first, std::size_t count) {
+  using device::VertexAttribute;
   constexpr VertexAttribute kVectors[] = {VertexAttribute::extra0, VertexAttribute::extra1,
                                           VertexAttribute::extra2, VertexAttribute::extra3,
                                           VertexAttribute::extra4, VertexAttribute::normal};
   while (count > 0) {
     const std::size_t now = std::min(count, kPiecesPerDraw), skipped = part == WedgePart::beyond ? 8 : 0;
     const std::size_t offset = (first * kCorners + skipped) * kStride;
-    gl::AttributeBinding bindings[8];
-    bindings[0] = {VertexAttribute::position,  &volumes.vertices, 3,
-                   gl::AttributeType::float32, kStride,           offset};
-    for (std::size_t i = 0; i < 6; ++i) {
-      bindings[i + 1] = {kVectors[i], &volumes.vertices,   4, gl::AttributeType::float32,
-                         kStride,     offset + 12 + 16 * i};
-    }
-    bindings[7] = {VertexAttribute::texcoord,  &volumes.vertices, 4,
-                   gl::AttributeType::float32, kStride,           offset + offsetof(Vertex, center)};
-    encoder.draw(state, {.attributes = bindings,
-                         .indices = &volumes.indices,
-                         .indexType = gl::IndexType::uint16,
-                         .count = now * kIndices});
+    BufferDraw pieces{
+        .indices = volumes.indicesInPlan, .indexType = device::IndexType::uint16, .count = now * kIndices};
+    const auto add = [&](VertexAttribute attribute, int components, std::size_t at) {
+      pieces.attributes.push_back({.attribute = attribute,
+                                   .buffer = volumes.streamInPlan,
+                                   .components = components,
+                                   .strideBytes = kStride,
+                                   .offsetBytes = offset + at});
+    };
+    add(VertexAttribute::position, 3, 0);
+    for (std::size_t i = 0; i < 6; ++i) add(kVectors[i], 4, 12 + 16 * i);
+    add(VertexAttribute::texcoord, 4, offsetof(Vertex, center));
+    pass.draws.emplace_back(draw).what = std::move(pieces);
     first += now, count -= now;
   }
 }
 }  // namespace
 
-const WedgeVolumes* WedgeVolumeCache::updatePieces(const LightFrame& frame) {
-  WedgeVolumes& volumes = volumes_[frame.lightIndex];
+const WedgeVolumes& WedgeVolumeCache::updatePieces(const LightScene& scene) {
+  WedgeVolumes& volumes = volumes_;
   std::vector<scene::Bounds> bounds;
-  for (const DrawItem& caster : frame.casters) bounds.push_back(caster.boundsWorld);
-  const glm::dvec3 toAnchor = scene::toAnchor(frame.light, bounds);
-  const bool highp = frame.capabilities.has(device::Capability::highp);
+  for (const DrawItem& caster : scene.casters) bounds.push_back(caster.boundsWorld);
+  const glm::dvec3 toAnchor = scene::toAnchor(scene.light, bounds);
+  const bool highp = scene.capabilities.has(device::Capability::highp);
   const scene::LightPlane plane(
-      frame.light, toAnchor, (highp ? kMinHalfLength : kMinHalfLengthWithoutHighp) * glm::length(toAnchor));
-  const double farthest = farthestReceiver(frame, plane), reach = sidewaysReach(frame, plane);
-  const std::uint64_t key = keyOf(frame, farthest, reach);
-  if (volumes.contentKey == key) return &volumes;
+      scene.light, toAnchor, (highp ? kMinHalfLength : kMinHalfLengthWithoutHighp) * glm::length(toAnchor));
+  const double farthest = farthestReceiver(scene, plane), reach = sidewaysReach(scene, plane);
+  const std::uint64_t key = keyOf(scene, farthest, reach);
+  if (volumes.contentKey == key) return volumes;
   volumes.contentKey = 0;
   volumes.plane = plane;
   volumes.farthest = farthest;
   volumes.reach = reach;
   // What a caster covers at all counts once, however often it covers it.
   const scene::LightSilhouettes& silhouettes = volumes.silhouettes.update(
-      placedCasters(frame), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+      placedCasters(scene), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
   makeWedgePieces(silhouettes, outlines::wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);
   volumes.contentKey = key;
-  return &volumes;
+  return volumes;
 }
 
-Status WedgeVolumeCache::upload(const LightFrame& frame, const ReceiverDepth& depth,
-                                std::span<const double> ends, std::uint64_t endsKey) {
-  WedgeVolumes& volumes = volumes_[frame.lightIndex];
+void WedgeVolumeCache::addBuffers(const LightScene& scene, PassPlan& plan, const ReceiverDepth& depth,
+                                  std::span<const double> ends, std::uint64_t endsKey) {
+  WedgeVolumes& volumes = volumes_;
   // A power of two, so that it seldom changes.
   const double farthest = std::exp2(std::ceil(std::log2(depth.farthest)));
   const double sure = kAllNearOfDistance * farthest / glm::length(volumes.plane.toUnitHeight);
@@ -181,56 +181,47 @@ Status WedgeVolumeCache::upload(const LightFrame& frame, const ReceiverDepth& de
       combineKeys(combineKeys(volumes.contentKey, endsKey), std::bit_cast<std::uint64_t>(farthest));
   volumes.trimmed = !ends.empty();
   volumes.small = volumes.trimmed && lengthKept(volumes, ends) < 0.5;
-  if (volumes.streamKey == key || volumes.pieces.pieces.empty()) return {};
-  volumes.streamKey = 0;
-  const bool highp = frame.capabilities.has(device::Capability::highp);
-  volumes.stepsPerUnit = highp ? 1.0 : kStepsWithoutHighp;
-  const std::vector<Vertex> stream =
-      vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, sure, ends);
-  if (Status s = uploadVolumes(frame.context, volumes.vertices, gl::BufferTarget::vertex,
-                               std::as_bytes(std::span(stream)));
-      !s) {
-    return s;
+  if (volumes.pieces.pieces.empty()) return;
+  if (volumes.streamKey != key) {
+    const bool highp = scene.capabilities.has(device::Capability::highp);
+    volumes.stepsPerUnit = highp ? 1.0 : kStepsWithoutHighp;
+    volumes.stream.bytes =
+        streamBytes(vertexStream(volumes, highp ? kAllNear : kAllNearWithoutHighp, sure, ends));
+    ++volumes.stream.key;
+    volumes.streamKey = key;
   }
-  if (Status s = uploadVolumeIndices(frame.context, volumes.indices, volumes.pieces.pieces.size(), kCorners);
-      !s)
-    return s;
-  volumes.streamKey = key;
-  return {};
+  volumes.streamInPlan = plan.addBuffer(volumes.stream);
+  volumes.indicesInPlan = volumes.indices.addTo(plan, 2, volumes.pieces.pieces.size(), kCorners);
 }
 
-void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
-                      const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
-                      WedgePart part, gl::DrawState state) {
-  gl::Encoder& encoder = context.encoder;
+void addWedgeVolumes(PlannedPass& pass, PlannedDraw draw, const WedgeVolumes& volumes,
+                     const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
+                     WedgePart part) {
   const scene::LightPlane& plane = volumes.plane;
-  bindReceiverPosition(context, program, depth,
-                       receiverRays(view, depth, plane.axes, plane.unitHeightWorld()));
-  program.set(encoder.context(), "u_clipFromLight",
-              glm::mat4(depth.clipFromWorld * outlines::worldFromAnchor(plane)));
+  addReceiverPosition(draw, view, depth, receiverRays(view, depth, plane.axes, plane.unitHeightWorld()));
+  draw.uniforms.set("u_clipFromLight", glm::mat4(depth.clipFromWorld * outlines::worldFromAnchor(plane)));
   const glm::dvec3& units = volumes.pieces.units;
   const double sizeUnits = outlines::kGridSteps / volumes.stepsPerUnit;
-  program.set(encoder.context(), "u_pieceGrid",
-              glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
-  program.set(encoder.context(), "u_pieceScale",
-              glm::vec4(units.x / units.y, units.y / sizeUnits,
-                        kNearOfDistance * depth.farthest / glm::length(plane.toUnitHeight), 0.0));
+  draw.uniforms.set("u_pieceGrid", glm::vec4(1.0 / units.x, 1.0 / units.y, 1.0, 1.0 / sizeUnits));
+  draw.uniforms.set("u_pieceScale",
+                    glm::vec4(units.x / units.y, units.y / sizeUnits,
+                              kNearOfDistance * depth.farthest / glm::length(plane.toUnitHeight), 0.0));
   const auto hull = eyeHull(view, plane);
   const VolumeReach reach{.end = volumes.end(), .sideways = volumes.reach};
   const bool small = part == WedgePart::beside || volumes.small;
   if (small) {
     // Few receivers lie in these volumes, and most of the screen behind them: the farther sides reject it.
-    state.cull = gl::Cull::front;
-    state.depth = {.test = gl::Compare::gequal};
+    draw.state.cull = device::Cull::front;
+    draw.state.depth = {.test = device::Compare::gequal};
   }
   const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
     // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
     // those that face away stand behind it.
     if (!small) {
-      state.cull = outside ? gl::Cull::back : gl::Cull::front;
-      state.depth = {.test = outside ? gl::Compare::lequal : gl::Compare::gequal};
+      draw.state.cull = outside ? device::Cull::back : device::Cull::front;
+      draw.state.depth = {.test = outside ? device::Compare::lequal : device::Compare::gequal};
     }
-    if (end > first) drawPieces(encoder, volumes, state, part, first, end - first);
+    if (end > first) addPieces(pass, draw, volumes, part, first, end - first);
   };
   std::size_t first = 0, end = 0;
   bool outside = true;

@@ -4,10 +4,9 @@
 /// Penumbra wedges of a light on the GPU: made once per content, drawn by every wedge technique.
 #pragma once
 
-#include <map>
-
 #include "outlines/wedge_pieces.hpp"
 #include "techniques/parts/screen/receiver_depth.hpp"
+#include "techniques/parts/wedges/volume_boxes.hpp"
 
 namespace halfshadow::techniques {
 
@@ -29,10 +28,12 @@ struct WedgeVolumes {
   outlines::WedgePieces pieces;
   bool lightEnclosed = false;   ///< a closed caster stands around the light's centre: nothing outside is lit
   double stepsPerUnit = 1.0;    ///< of the vertex stream: 1 where fragments have highp
-  std::uint64_t streamKey = 0;  ///< of what the buffers hold
+  std::uint64_t streamKey = 0;  ///< of what the stream was made from
   bool trimmed = false;         ///< volumes end before the farthest receiver
   bool small = false;           ///< by more than half of their length, on average
-  gl::Buffer vertices, indices;
+  PlannedBuffer stream{.id = 1};
+  VolumeIndices indices;
+  std::uint32_t streamInPlan = 0, indicesInPlan = 0;
 };
 
 /// A contiguous range of casters.
@@ -46,28 +47,27 @@ enum class WedgePart {
   beyond   ///< all of it is
 };
 
-/// Keeps the wedges of each light between frames.
+/// Keeps the wedges of a light between frames.
 class WedgeVolumeCache {
  public:
   /// The wedges for this frame, made again only when light, casters or the receivers' reach changed. The
-  /// pointer stays valid until contextLost().
-  const WedgeVolumes* updatePieces(const LightFrame& frame);
-  /// The same for the buffers. `ends`, one a piece: the largest height of a receiver that its volume must
-  /// hold, 0 = none; empty: all receivers. `endsKey` changes with them. Errors: outOfMemory.
-  Status upload(const LightFrame& frame, const ReceiverDepth& depth, std::span<const double> ends,
-                std::uint64_t endsKey);
-  void contextLost() { volumes_.clear(); }
+  /// reference lasts as long as this.
+  const WedgeVolumes& updatePieces(const LightScene& scene);
+  /// The same for the buffers, which go to the plan. `ends`, one a piece: the largest height of a receiver
+  /// that its volume must hold, 0 = none; empty: all receivers. `endsKey` changes with them.
+  void addBuffers(const LightScene& scene, PassPlan& plan, const ReceiverDepth& depth,
+                  std::span<const double> ends, std::uint64_t endsKey);
 
  private:
-  std::map<int, WedgeVolumes> volumes_;
+  WedgeVolumes volumes_;
 };
 
-/// Draws the volumes of casters, in a pass whose depth attachment is ReceiverDepth::depthTest. The program is
-/// current and made of wedge_volume.vert with a fragment shader that includes wedge_piece.glsl. Pixels of
-/// receivers outside the volume may be touched: what a piece contributes there is 0 by its arithmetic.
-/// `state.depth` and `state.cull` are set here.
-void drawWedgeVolumes(framegraph::PassContext& context, gl::Program& program, const WedgeVolumes& volumes,
-                      const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
-                      WedgePart part, gl::DrawState state);
+/// Adds draws like `draw` of the volumes of casters, to a pass whose depth attachment is
+/// ReceiverDepth::depthTest; its program is made of wedge_volume.vert with a fragment shader that includes
+/// wedge_piece.glsl. Pixels of receivers outside the volume may be touched: what a piece contributes there is
+/// 0 by its arithmetic. Depth and cull of the state are set here.
+void addWedgeVolumes(PlannedPass& pass, PlannedDraw draw, const WedgeVolumes& volumes,
+                     const ReceiverDepth& depth, const View& view, std::span<const CasterRange> casters,
+                     WedgePart part);
 
 }  // namespace halfshadow::techniques
