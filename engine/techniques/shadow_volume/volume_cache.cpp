@@ -15,13 +15,6 @@ std::shared_ptr<const std::vector<std::byte>> bytesOf(const std::vector<T>& valu
   const auto bytes = std::as_bytes(std::span<const T>(values));
   return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
 }
-
-/// Indices of the plan's buffers; added by the first draw that reads them.
-std::uint32_t bufferIn(PassPlan& plan, const PlannedBuffer& buffer) {
-  const auto known = std::ranges::find(plan.buffers, buffer.id, &PlannedBuffer::id);
-  return known == plan.buffers.end() ? plan.addBuffer(buffer)
-                                     : static_cast<std::uint32_t>(known - plan.buffers.begin());
-}
 }  // namespace
 
 void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
@@ -35,7 +28,7 @@ void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
                               : bytesOf(mesh.indices);
 }
 
-void CasterVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
+void CasterVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
                             std::uint32_t first, std::uint32_t last) const {
   const Streams& streams = streams_[static_cast<std::size_t>(surface)];
   const auto& ranges = streams.ranges;
@@ -47,19 +40,20 @@ void CasterVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw
     }
     PlannedDraw& added = pass.draws.emplace_back(draw);
     added.what = BufferDraw{.attributes = {{.attribute = device::VertexAttribute::position,
-                                            .buffer = bufferIn(plan, streams.vertices),
+                                            .buffer = streams.verticesInPlan,
                                             .components = 4,
                                             .strideBytes = 16,
                                             .offsetBytes = std::size_t{joined.firstVertex} * 16}},
-                            .indices = bufferIn(plan, streams.indices),
+                            .indices = streams.indicesInPlan,
                             .indexType = streams.indexType,
                             .first = joined.firstIndex,
                             .count = joined.indexCount};
   }
 }
 
-const CasterVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
-                                     VolumeSurface surface, int maxLayers, bool wideIndices) {
+const CasterVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorld,
+                                     const scene::PlacedCaster& caster, VolumeSurface surface, int maxLayers,
+                                     bool wideIndices) {
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
   CasterVolume& volume = volumes_[caster.object];
   volume.used_ = true;
@@ -83,6 +77,11 @@ const CasterVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::
     streams.vertices.id = id;
     streams.indices.id = id + 1;
     streams.vertices.key = streams.indices.key = ++made_;
+  }
+  for (CasterVolume::Streams& held : volume.streams_) {
+    if (!held.made) continue;
+    held.verticesInPlan = plan.addBuffer(held.vertices);
+    held.indicesInPlan = plan.addBuffer(held.indices);
   }
   return volume;
 }

@@ -20,10 +20,9 @@ namespace halfshadow::techniques {
 class CasterVolume {
  public:
   std::span<const VolumeChunk> chunks() const { return chunks_; }
-  /// Adds the buffers of a surface that was made to the plan, and draws of its chunks [first, last) like
-  /// `draw`.
-  void addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
-                std::uint32_t first, std::uint32_t last) const;
+  /// Adds draws like `draw` of chunks [first, last) of a surface that was made.
+  void addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface, std::uint32_t first,
+                std::uint32_t last) const;
 
  private:
   friend class VolumeCache;
@@ -33,6 +32,7 @@ class CasterVolume {
     device::IndexType indexType = device::IndexType::uint16;
     std::vector<VolumeMesh::Range> ranges;
     bool made = false;
+    std::uint32_t verticesInPlan = 0, indicesInPlan = 0;
   };
   static void fill(Streams& streams, const VolumeMesh& mesh);
   std::uint64_t revision_ = 0;
@@ -46,8 +46,9 @@ class CasterVolume {
 /// Of one light.
 class VolumeCache {
  public:
+  /// Its buffers go to the plan, also those of the other surface if that was made for an earlier frame.
   /// `maxLayers`: of each chunk; the same in every call. The reference stays valid until endFrame().
-  const CasterVolume& get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+  const CasterVolume& get(PassPlan& plan, const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
                           VolumeSurface surface, int maxLayers, bool wideIndices);
   /// Drops the volumes that were not asked for since the last call.
   void endFrame();

@@ -118,13 +118,13 @@ class Batcher {
 
 /// The draws of one light into one channel.
 struct Counting {
-  PassPlan& plan;
   PlannedPass& pass;
+  std::uint32_t volumeProgram = 0, fullscreenProgram = 0;
   glm::mat4 clipFromDirection{1.0f};
   int channel = 0;
 
   PlannedDraw volume(const VolumeDraw& draw) const {
-    PlannedDraw planned{.program = plan.addProgram({"volume/volume.vert", "volume/volume.frag", {}})};
+    PlannedDraw planned{.program = volumeProgram};
     planned.uniforms.set("u_clipFromDirection", clipFromDirection);
     planned.uniforms.set("u_clipFromObject", draw.clipFromObject);
     planned.state.colorMask.fill(false);
@@ -133,7 +133,7 @@ struct Counting {
     return planned;
   }
   PlannedDraw fullscreen(float color, const std::optional<Rect>& scissor) const {
-    PlannedDraw planned{.program = plan.addProgram({"screen/fullscreen.vert", "volume/volume.frag", {}})};
+    PlannedDraw planned{.program = fullscreenProgram};
     planned.uniforms.set("u_color", glm::vec4(color));
     planned.state.colorMask.fill(false);
     planned.state.colorMask[static_cast<std::size_t>(channel)] = true;
@@ -153,7 +153,7 @@ void addStencil(const Counting& counting, const VolumeDraw& draw) {
       draw.depthFail ? StencilOp::decrWrap : StencilOp::incrWrap;
   (draw.depthFail ? leaving.depthFail : leaving.pass) =
       draw.depthFail ? StencilOp::incrWrap : StencilOp::decrWrap;
-  draw.volume->addDraws(counting.plan, counting.pass, planned, draw.surface, draw.firstChunk, draw.lastChunk);
+  draw.volume->addDraws(counting.pass, planned, draw.surface, draw.firstChunk, draw.lastChunk);
 }
 
 void addBlended(const Counting& counting, const VolumeDraw& draw) {
@@ -166,8 +166,7 @@ void addBlended(const Counting& counting, const VolumeDraw& draw) {
   // What is added comes first: a channel cannot go below zero.
   const bool addsBack = draw.depthFail != draw.mirrored;
   const auto add = [&] {
-    draw.volume->addDraws(counting.plan, counting.pass, planned, draw.surface, draw.firstChunk,
-                          draw.lastChunk);
+    draw.volume->addDraws(counting.pass, planned, draw.surface, draw.firstChunk, draw.lastChunk);
   };
   state.cull = addsBack ? Cull::front : Cull::back;
   add();
@@ -227,7 +226,7 @@ LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeV
     draw.depthFail = !missesNearPyramid(view, light, box);
     // The eye looks into the volume of a caster that is not drawn through its cap.
     draw.surface = draw.depthFail || !drawn[caster.object] ? VolumeSurface::capped : VolumeSurface::sides;
-    draw.volume = &cache.get(light, caster, draw.surface, maxLayers, wideIndices);
+    draw.volume = &cache.get(plan, light, caster, draw.surface, maxLayers, wideIndices);
     draw.mirrored = glm::determinant(glm::dmat3(caster.worldFromObject)) < 0.0;
     draw.clipFromObject = glm::mat4(view.clipFromWorld * caster.worldFromObject);
     draw.scissor = shadowScissor(view, light, box);
@@ -265,7 +264,9 @@ PlannedDraw volumeReceivers(PassPlan& plan, const VolumeView& view, std::span<co
 
 void addVolumeCounts(PassPlan& plan, PlannedPass& pass, const LightVolumes& volumes, VolumeCounter counter,
                      int channel) {
-  const Counting counting{plan, pass, volumes.clipFromDirection, channel};
+  const Counting counting{pass, plan.addProgram({"volume/volume.vert", "volume/volume.frag", {}}),
+                          plan.addProgram({"screen/fullscreen.vert", "volume/volume.frag", {}}),
+                          volumes.clipFromDirection, channel};
   for (std::size_t i = 0; i < volumes.batches.size(); ++i) {
     const VolumeBatch& batch = volumes.batches[i];
     for (const VolumeDraw& draw : batch.draws) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <limits>
+#include <optional>
 #include <vector>
 
 namespace halfshadow::techniques {
@@ -65,18 +66,35 @@ double nearestInView(const scene::Bounds& box, const View& view) {
   return nearest;
 }
 
+/// In the plan, once each.
+class DepthPrograms {
+ public:
+  explicit DepthPrograms(PassPlan& plan) : plan_(plan) {}
+  std::uint32_t of(bool codes, bool planes) {
+    std::optional<std::uint32_t>& program = programs_[codes][planes];
+    if (program) return *program;
+    std::vector<std::string> defines;
+    if (codes) defines.push_back("HS_FACETS");
+    if (planes) defines.push_back("HS_FACET_NORMAL");
+    program =
+        plan_.addProgram({"screen/receiver_depth.vert", "screen/receiver_depth.frag", std::move(defines)});
+    return *program;
+  }
+
+ private:
+  PassPlan& plan_;
+  std::optional<std::uint32_t> programs_[2][2];
+};
+
 /// Plane and facet code of each item as `alpha` wants them.
-PlannedDraw depthDraw(const LightScene& scene, PassPlan& plan, const ReceiverDepth& depth,
+PlannedDraw depthDraw(const LightScene& scene, DepthPrograms& programs, const ReceiverDepth& depth,
                       ReceiverAlpha alpha, std::span<const DrawItem> item) {
   const DrawItem& drawn = item.front();
   const View& view = scene.screen;
   const bool facets = alpha == ReceiverAlpha::facets;
   const bool planes = facets && drawn.facetStream, codes = facets && drawn.casts;
-  std::vector<std::string> defines;
-  if (codes) defines.push_back("HS_FACETS");
-  if (planes) defines.push_back("HS_FACET_NORMAL");
-  PlannedDraw draw{.program = plan.addProgram(
-                       {"screen/receiver_depth.vert", "screen/receiver_depth.frag", std::move(defines)})};
+  PlannedDraw draw{.program = programs.of(codes, planes)};
+
   // Unit scale keeps single precision in range for tiny and huge worlds.
   const double scale = 1.0 / depth.farthest;
   draw.uniforms.set("u_inverseFarthest", static_cast<float>(scale));
@@ -131,8 +149,9 @@ ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, Receive
   PlannedPass pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
+  DepthPrograms programs(plan);
   for (std::size_t i = 0; i < scene.receivers.size(); ++i)
-    pass.draws.push_back(depthDraw(scene, plan, depth, alpha, scene.receivers.subspan(i, 1)));
+    pass.draws.push_back(depthDraw(scene, programs, depth, alpha, scene.receivers.subspan(i, 1)));
   pass.drawsForAllLights = pass.draws.size();
   plan.passes.push_back(std::move(pass));
   return depth;
