@@ -55,12 +55,13 @@ class AdditivePlanner final : public LightPlanner {
  public:
   Status plan(const LightScene& scene, PassPlan& plan) override {
     routes_.planSums(scene, plan, scene.settings.choice("wedges.route"));
-    return addOwnReceivers(scene, plan, lists_, "wedges.tiles", {&outlines::kWholeLight, 1},
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1},
                            OwnSurfaces::hollow);
   }
 
  private:
   WedgeRoutes routes_;
+  LightLoops loops_;
   LightLists lists_;
 };
 
@@ -84,8 +85,8 @@ class ProbabilisticPlanner final : public LightPlanner {
       }
     }
     plan.shading = screenShading(scene, visibility, 0.0f);
-    return addOwnReceivers(scene, plan, lists_, "wedges-probabilistic.tiles", {&outlines::kWholeLight, 1},
-                           OwnSurfaces::hollow);
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges-probabilistic.tiles",
+                           {&outlines::kWholeLight, 1}, OwnSurfaces::hollow);
   }
 
  private:
@@ -124,6 +125,7 @@ class ProbabilisticPlanner final : public LightPlanner {
   }
 
   WedgeRoutes routes_;
+  LightLoops loops_;
   LightLists lists_;
 };
 

@@ -243,9 +243,10 @@ class VbufferPasses {
 };
 }  // namespace
 
-Status planVbufferTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws,
+Status planVbufferTargets(const LightScene& scene, PassPlan& plan, LightLoops& loops, CasterDraws& draws,
                           const VbufferRequest& request) {
-  if (Status s = draws.update(scene, plan, {&outlines::kWholeLight, 1}, Batching::disjoint); !s) return s;
+  if (Status s = draws.update(scene, plan, loops, {&outlines::kWholeLight, 1}, Batching::disjoint); !s)
+    return s;
   const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::facets);
   VbufferPasses passes(scene, plan, draws, depth, request);
   passes.addPasses();

@@ -23,7 +23,7 @@ struct VbufferRequest {
 
 /// Casters that cannot meet are merged together, a batch in one draw a target. Makes the plan's shading.
 /// Based on: Forest, Barthe, Paulin 2006, section 4. Errors: outOfMemory.
-Status planVbufferTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws,
+Status planVbufferTargets(const LightScene& scene, PassPlan& plan, LightLoops& loops, CasterDraws& draws,
                           const VbufferRequest& request);
 
 }  // namespace halfshadow::techniques

@@ -109,7 +109,8 @@ class BlendedPlanner final : public LightPlanner {
     if (!meet_ && scene.capabilities.has(device::Capability::highp)) return addUp(scene, plan);
     if (const auto merge = targetMerge(scene, plan)) {
       const bool centres = scene.settings.choice("wedges-blended.cog") == "on";
-      if (Status s = planVbufferTargets(scene, plan, draws_, {.merge = *merge, .centres = centres}); !s)
+      if (Status s = planVbufferTargets(scene, plan, loops_, draws_, {.merge = *merge, .centres = centres});
+          !s)
         return s;
       return addOwn(scene, plan);
     }
@@ -125,7 +126,7 @@ class BlendedPlanner final : public LightPlanner {
   }
 
   Status addOwn(const LightScene& scene, PassPlan& plan) {
-    return addOwnReceivers(scene, plan, lists_, "wedges-blended.tiles", {&outlines::kWholeLight, 1},
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges-blended.tiles", {&outlines::kWholeLight, 1},
                            OwnSurfaces::all);
   }
 
@@ -135,7 +136,7 @@ class BlendedPlanner final : public LightPlanner {
                               .edges = outlines::ListedEdges::all,
                               .tiles = scene.settings.integer("wedges-blended.tiles"),
                               .tilesKey = "wedges-blended.tiles"};
-    if (Status s = lists_.update(scene, plan, request); !s) return s;
+    if (Status s = lists_.update(scene, plan, loops_, request); !s) return s;
     plan.shading.fragmentFile = "list/wedges_blended.frag";
     if (scene.settings.choice("wedges-blended.cog") == "on") plan.shading.defines.push_back("HS_CENTRES");
     lists_.provide(scene, plan);
@@ -145,6 +146,7 @@ class BlendedPlanner final : public LightPlanner {
   }
 
   WedgeRoutes routes_;
+  LightLoops loops_;
   LightLists lists_;
   CasterDraws draws_;
   std::uint64_t meetKey_ = 0;

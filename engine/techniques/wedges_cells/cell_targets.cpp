@@ -81,12 +81,12 @@ framegraph::ResourceId addMean(const LightScene& scene, PassPlan& plan,
 }
 }  // namespace
 
-Status planCellTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws, int cells,
-                       CellProduct product) {
+Status planCellTargets(const LightScene& scene, PassPlan& plan, LightLoops& loops, CasterDraws& draws,
+                       int cells, CellProduct product) {
   static constexpr auto kQuarters = outlines::subLights();
   static constexpr std::array<device::UniformKey, 8> kSamplers = {
       "u_cells0", "u_cells1", "u_cells2", "u_cells3", "u_cells4", "u_cells5", "u_cells6", "u_cells7"};
-  if (Status s = draws.update(scene, plan, kQuarters, Batching::none); !s) return s;
+  if (Status s = draws.update(scene, plan, loops, kQuarters, Batching::none); !s) return s;
   const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::facets);
   std::vector<CellTarget> targets = targetsOf(cells);
   std::vector<TextureRead> textures;

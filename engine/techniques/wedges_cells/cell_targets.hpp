@@ -17,7 +17,7 @@ enum class CellProduct {
 /// One pass a target: four sub-lights of one cell in one target, of four cells in four, of eight in eight
 /// (and one that takes their mean).
 /// `cells`: 4, 16 or 32. Makes the plan's shading. Errors: outOfMemory.
-Status planCellTargets(const LightScene& scene, PassPlan& plan, CasterDraws& draws, int cells,
-                       CellProduct product);
+Status planCellTargets(const LightScene& scene, PassPlan& plan, LightLoops& loops, CasterDraws& draws,
+                       int cells, CellProduct product);
 
 }  // namespace halfshadow::techniques

@@ -84,8 +84,8 @@ class CellsPlanner final : public LightPlanner {
     if (route == Route::gather) return gather(scene, plan);
     const int cells = std::stoi(scene.settings.choice("wedges-cells.bytes"));
     const CellProduct product = route == Route::fetch ? CellProduct::fetched : CellProduct::blended;
-    if (Status s = planCellTargets(scene, plan, draws_, cells, product); !s) return s;
-    return addOwnReceivers(scene, plan, lists_, "wedges-cells.tiles", kQuarters, OwnSurfaces::all);
+    if (Status s = planCellTargets(scene, plan, loops_, draws_, cells, product); !s) return s;
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges-cells.tiles", kQuarters, OwnSurfaces::all);
   }
 
  private:
@@ -94,7 +94,7 @@ class CellsPlanner final : public LightPlanner {
                               .edges = outlines::ListedEdges::covering,
                               .tiles = scene.settings.integer("wedges-cells.tiles"),
                               .tilesKey = "wedges-cells.tiles"};
-    if (Status s = lists_.update(scene, plan, request); !s) return s;
+    if (Status s = lists_.update(scene, plan, loops_, request); !s) return s;
     plan.shading.fragmentFile = "list/wedges_cells.frag";
     plan.shading.defines = {"HS_CELLS " + scene.settings.choice("wedges-cells.bytes")};
     lists_.provide(scene, plan);
@@ -103,6 +103,7 @@ class CellsPlanner final : public LightPlanner {
     return {};
   }
 
+  LightLoops loops_;
   LightLists lists_;
   CasterDraws draws_;
 };

@@ -90,20 +90,23 @@ CasterPlace casterPlace(const outlines::ListSpace& space) {
 }
 }  // namespace
 
-Status CasterDraws::update(const LightScene& scene, PassPlan& plan,
+Status CasterDraws::update(const LightScene& scene, PassPlan& plan, LightLoops& loops,
                            std::span<const outlines::SubLight> subLights, Batching batching) {
-  const bool changed = loops_.update(scene, plan, subLights);
-  const scene::LightPlane& plane = loops_.plane();
-  const VolumeReach reach{.end = farthestReceiver(scene, loops_), .sideways = sidewaysReach(scene, plane)};
+  loops.update(scene, plan, subLights);
+  loops_ = &loops;
+  const bool changed = loopsSeen_ != loops.generation();
+  loopsSeen_ = loops.generation();
+  const scene::LightPlane& plane = loops_->plane();
+  const VolumeReach reach{.end = farthestReceiver(scene, loops), .sideways = sidewaysReach(scene, plane)};
   if (!encoded_ || changed || reach.end != reach_.end || reach.sideways != reach_.sideways) {
     encoded_ = false;
     reach_ = reach;
     subLights_.assign(subLights.begin(), subLights.end());
-    volumes_ = casterVolumes(loops_.subLights(), loops_.space(), reach, batching);
+    volumes_ = casterVolumes(loops_->subLights(), loops_->space(), reach, batching);
     if (Status s = encode(scene); !s) return s;
     encoded_ = true;
   }
-  place_ = listPlace(scene, loops_.minHeight());
+  place_ = listPlace(scene, loops_->minHeight());
   if (volumes_.volumes.empty()) return {};
   recordsInPlan_ = addList(plan, "caster records", records_, vertices_.key);
   verticesInPlan_ = plan.addBuffer(vertices_);
@@ -122,7 +125,7 @@ Status CasterDraws::encode(const LightScene& scene) {
         ErrorCode::outOfMemory,
         "the silhouettes' vertices exceed this device's largest texture; use fewer or simpler casters"};
   }
-  vertices_.bytes = streamBytes(vertexStream(volumes_, reach_, loops_.space(), encoded));
+  vertices_.bytes = streamBytes(vertexStream(volumes_, reach_, loops_->space(), encoded));
   vertices_.key = ++encodings_;
   records_ = std::move(encoded.records);
   return {};
@@ -135,12 +138,12 @@ void CasterDraws::addDraws(const LightScene& scene, PassPlan& plan, PlannedPass&
       return volume.subLight == request.subLight && volume.batch == request.batch && volume.part == part;
     });
   };
-  const scene::LightPlane& plane = loops_.plane();
+  const scene::LightPlane& plane = loops_->plane();
   const glm::dmat4 worldFromLight(glm::dvec4(plane.halfU, 0), glm::dvec4(plane.halfV, 0),
                                   glm::dvec4(plane.heightUnit * plane.normal, 0),
                                   glm::dvec4(plane.centerWorld, 1));
   const outlines::SubLight& light = subLights_[request.subLight];
-  const outlines::ListSpace& space = loops_.space();
+  const outlines::ListSpace& space = loops_->space();
   const CasterPlace place = casterPlace(space);
   ReceiverRays rays = receiverRays(scene.screen, depth, place.fromWorld, plane.centerWorld);
   if (space.originI > 0.0) rays.eye.z += 1.0;
@@ -171,7 +174,7 @@ void CasterDraws::addDraws(const LightScene& scene, PassPlan& plan, PlannedPass&
 
 void CasterDraws::addPart(PlannedPass& pass, const PlannedDraw& draw, const View& view,
                           const Request& request, WedgePart part) const {
-  const auto hull = eyeHull(view, loops_.plane());
+  const auto hull = eyeHull(view, loops_->plane());
   const auto flush = [&](bool outside, std::size_t first, std::size_t end) {
     // From outside, the sides that face the eye stand in front of every receiver in the volume; from inside,
     // those that face away stand behind it. Few receivers are at a caster's own heights, and most of the

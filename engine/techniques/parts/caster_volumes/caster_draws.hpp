@@ -20,9 +20,9 @@ namespace halfshadow::techniques {
 class CasterDraws {
  public:
   /// Made anew when light, casters, settings or the receivers' reach changed; buffers and lists go to the
-  /// plan. Errors: outOfMemory.
-  Status update(const LightScene& scene, PassPlan& plan, std::span<const outlines::SubLight> subLights,
-                Batching batching);
+  /// plan. `loops` are updated, too, and must outlive this. Errors: outOfMemory.
+  Status update(const LightScene& scene, PassPlan& plan, LightLoops& loops,
+                std::span<const outlines::SubLight> subLights, Batching batching);
   bool lightEnclosed(std::uint32_t subLight) const { return volumes_.lightEnclosed[subLight]; }
   std::uint32_t batchCount() const { return volumes_.batchCount; }
 
@@ -43,7 +43,8 @@ class CasterDraws {
   void addPart(PlannedPass& pass, const PlannedDraw& draw, const View& view, const Request& request,
                WedgePart part) const;
 
-  LightLoops loops_;
+  const LightLoops* loops_ = nullptr;  ///< of the last update
+  std::uint64_t loopsSeen_ = 0;
   VolumeReach reach_;
   CasterVolumes volumes_;
   bool encoded_ = false;

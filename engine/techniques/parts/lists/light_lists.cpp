@@ -122,13 +122,13 @@ bool LightLists::boundShadows(const LightScene& scene) {
   Reach reach;
   for (const auto items : {scene.casters, scene.shadowlessReceivers}) {
     for (const DrawItem& item : items) {
-      if (item.receives) reach.include(item.boundsWorld, loops_.space(), loops_.minHeight());
+      if (item.receives) reach.include(item.boundsWorld, loops_->space(), loops_->minHeight());
     }
   }
-  shadows_ = shadowedTangents(loops_.subLights(), reach.farthest);
+  shadows_ = shadowedTangents(loops_->subLights(), reach.farthest);
   const glm::dvec2 low = glm::max(shadows_.low, reach.rect.low),
                    high = glm::min(shadows_.high, reach.rect.high);
-  const scene::LightPlane& plane = loops_.space().plane;
+  const scene::LightPlane& plane = loops_->space().plane;
   const glm::dvec2 even =
       kEvenSlope * plane.heightUnit / glm::dvec2(glm::length(plane.halfU), glm::length(plane.halfV));
   outlines::TileScale scale;
@@ -143,12 +143,16 @@ bool LightLists::boundShadows(const LightScene& scene) {
   return same;
 }
 
-Status LightLists::update(const LightScene& scene, PassPlan& plan, const ListRequest& request) {
-  const bool loopsChanged = loops_.update(scene, plan, request.subLights);
+Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& loops,
+                          const ListRequest& request) {
+  loops.update(scene, plan, request.subLights);
+  loops_ = &loops;
+  const bool loopsChanged = loopsSeen_ != loops.generation();
+  loopsSeen_ = loops.generation();
   if (loopsChanged) sceneKey_ = 0;
   if (!boundShadows(scene)) receivers_.clear();
   if (loopsChanged) {
-    surfaces_ = outlines::NearSurfaces(placedCasters(scene), loops_.space(), loops_.minHeight());
+    surfaces_ = outlines::NearSurfaces(placedCasters(scene), loops_->space(), loops_->minHeight());
     receivers_.clear();
     encoded_.clear();
     std::vector<std::uint64_t> casters;
@@ -183,9 +187,9 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, const ListReq
                            .worldFromObject = item.worldFromObject,
                            .closed = !seenFromBehind,
                            .withPatches = receiver.ownObject != outlines::kNoObject},
-                          loops_.space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
-                          kMaxTiles, loops_.minHeight(), scale_);
-        cached.lists = tileLists(loops_.subLights(), surfaces_, cached.tiles, receiver, request.edges,
+                          loops_->space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
+                          kMaxTiles, loops_->minHeight(), scale_);
+        cached.lists = tileLists(loops_->subLights(), surfaces_, cached.tiles, receiver, request.edges,
                                  mostRecords - records);
         changed = true;
       }
@@ -243,12 +247,12 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
   if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");
-  shading.mapFromWorld = loops_.space().homogeneousFromWorld();
+  shading.mapFromWorld = loops_->space().homogeneousFromWorld();
   const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.width, tiles_.height);
   const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.width, records_.height);
   const std::array<glm::vec4, 3> rays = pixelRays(scene.screen, shading.mapFromWorld);
   const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(scene.screen.eyeWorld, 1.0));
-  const glm::vec4 place = listPlace(scene, loops_.minHeight());
+  const glm::vec4 place = listPlace(scene, loops_->minHeight());
   shading.uniforms.set("u_cellTexel", glm::vec4(tileTexel, recordTexel));
   shading.uniforms.set("u_listPlace", place);
   shading.uniforms.set("u_rayX", rays[0]);
@@ -256,7 +260,7 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
   shading.uniforms.set("u_rayOrigin", rays[2]);
   shading.uniforms.set("u_eyeLight", eye);
   shading.itemUniforms = [this](const DrawItem& item, device::UniformList& uniforms) {
-    const FacetPlanes planes = facetPlanes(loops_.space(), item.worldFromObject);
+    const FacetPlanes planes = facetPlanes(loops_->space(), item.worldFromObject);
     uniforms.set("u_facetT0", planes.t[0]);
     uniforms.set("u_facetT1", planes.t[1]);
     uniforms.set("u_facetI", planes.i);

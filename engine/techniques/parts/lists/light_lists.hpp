@@ -39,10 +39,10 @@ std::uint32_t addList(PassPlan& plan, std::string name, const ListImage& image, 
 /// The lists of one light.
 class LightLists {
  public:
-  /// Makes anew what changed. Errors: outOfMemory (lists exceed the largest texture).
-  Status update(const LightScene& scene, PassPlan& plan, const ListRequest& request);
-  /// Silhouettes of the last update, one entry per sub-light.
-  std::span<const outlines::SubLightLoops> subLights() const { return loops_.subLights(); }
+  /// Makes anew what changed. `loops` are updated, too, and must outlive this. Errors: outOfMemory (lists
+  /// exceed the largest texture).
+  Status update(const LightScene& scene, PassPlan& plan, LightLoops& loops, const ListRequest& request);
+
   /// Adds textures and uniforms to the plan's shading, for a fragment shader with caster_lists.glsl. It
   /// refers to this object.
   void provide(const LightScene& scene, PassPlan& plan) const;
@@ -59,7 +59,8 @@ class LightLists {
   /// False when what bounds the tiles changed.
   bool boundShadows(const LightScene& scene);
 
-  LightLoops loops_;
+  const LightLoops* loops_ = nullptr;  ///< of the last update
+  std::uint64_t loopsSeen_ = 0;
   outlines::NearSurfaces surfaces_;
   std::uint64_t sceneKey_ = 0;
   outlines::TangentRect shadows_;

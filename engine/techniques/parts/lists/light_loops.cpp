@@ -57,13 +57,14 @@ outlines::ListSpace spaceOf(const scene::LightPlane& plane, std::span<const Draw
 }
 }  // namespace
 
-bool LightLoops::update(const LightScene& scene, PassPlan& plan,
+void LightLoops::update(const LightScene& scene, PassPlan& plan,
                         std::span<const outlines::SubLight> subLights) {
   const std::vector<outlines::RoomPart> seenInside = partsSeenInside(scene);
   std::uint64_t key = combineKeys(scene.contentKey, scene.settings.revision());
   for (const outlines::RoomPart& room : seenInside)
     key = combineKeys(key, (std::uint64_t{room.object} << 32) + room.part + 1);
-  if (key_ == key) return false;
+  if (key_ == key && silhouettes_.size() == subLights.size()) return;
+  ++generation_;
   key_ = key;
   // A power of two: casters that move about must not change the coordinates of the others.
   const double unit = std::exp2(std::ceil(std::log2(scene.fit().farDistance)));
@@ -92,7 +93,6 @@ bool LightLoops::update(const LightScene& scene, PassPlan& plan,
                                                  minHeight_, scene::LayerSplit::alongside),
                           casters, subLight, space_, seenInside));
   }
-  return true;
 }
 
 }  // namespace halfshadow::techniques

@@ -12,18 +12,20 @@ namespace halfshadow::techniques {
 
 class LightLoops {
  public:
-  /// True when they were found anew: light, casters or settings changed. Casters that
-  /// are left out are noted in the plan.
-  bool update(const LightScene& scene, PassPlan& plan, std::span<const outlines::SubLight> subLights);
+  /// Finds them anew when light, casters, sub-lights or settings changed: once a frame, however many ask.
+  /// Casters that are left out are noted in the plan.
+  void update(const LightScene& scene, PassPlan& plan, std::span<const outlines::SubLight> subLights);
   const scene::LightPlane& plane() const { return space_.plane; }
   const outlines::ListSpace& space() const { return space_; }
   /// What is nearer to the light's plane is cut: a thousandth of the light's smaller half side.
   double minHeight() const { return minHeight_; }
+  /// Counts up whenever they were found anew.
+  std::uint64_t generation() const { return generation_; }
   /// One entry per sub-light.
   std::span<const outlines::SubLightLoops> subLights() const { return subLights_; }
 
  private:
-  std::uint64_t key_ = 0;
+  std::uint64_t key_ = 0, generation_ = 0;
   outlines::ListSpace space_;
   double minHeight_ = 1.0;
   std::vector<scene::LightSilhouetteCache> silhouettes_;

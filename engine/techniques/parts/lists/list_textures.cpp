@@ -87,7 +87,9 @@ EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) 
 }
 
 void putCode(float value, std::uint8_t* texels) {
-  const int code = static_cast<int>(std::clamp(std::round(value), -32768.0f, 32767.0f)) + 32768;
+  // To the nearest whole number without a call of the library, in double so that no half is lost.
+  const double clamped = std::clamp(value, -32768.0f, 32767.0f);
+  const int code = static_cast<int>(clamped + (clamped < 0.0 ? -0.5 : 0.5)) + 32768;
   texels[0] = static_cast<std::uint8_t>(code >> 8);
   texels[1] = static_cast<std::uint8_t>(code & 255);
 }
@@ -99,14 +101,19 @@ void encodePlacement(const EncodedLists::Placed& placed, std::uint8_t* texels) {
   texels[7] = static_cast<std::uint8_t>(std::ilogb(placed.step.z) + kExponentBias);
 }
 
+/// `perStep`: 1 over the placement's steps, which are powers of two.
 void encodeRecord(const outlines::ListRecord& record, const EncodedLists::Placed& placed,
-                  std::uint8_t* texels) {
+                  const glm::vec3& perStep, std::uint8_t* texels) {
   const bool isVertex = record.behindFacet == outlines::ListRecord::kVertex;
-  const glm::vec3 offset =
-      isVertex ? (record.ti - placed.center) / placed.step : glm::vec3(record.behindFacet, 0.0f, 0.0f);
+  glm::vec3 offset =
+      isVertex ? (record.ti - placed.center) * perStep : glm::vec3(record.behindFacet, 0.0f, 0.0f);
   const float largest = std::max({std::abs(offset.x), std::abs(offset.y), std::abs(offset.z)});
-  const float scale = std::clamp(std::ceil(std::sqrt(largest / 32767.0f)), 1.0f, 255.0f);
-  for (int k = 0; k < 3; ++k) putCode(offset[k] / (scale * scale), texels + 2 * k);
+  float scale = 1.0f;
+  if (largest > 32767.0f) {
+    scale = std::clamp(std::ceil(std::sqrt(largest / 32767.0f)), 1.0f, 255.0f);
+    offset /= scale * scale;
+  }
+  for (int k = 0; k < 3; ++k) putCode(offset[k], texels + 2 * k);
   texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
                                         (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
                                         (record.oneSided ? 8 : 0) | (isVertex ? 0 : 4) |
@@ -175,9 +182,9 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
       placed = placementOf(records);
       placed.firstRecord = static_cast<std::uint32_t>(next);
       encodePlacement(placed, &recordTexels[next++ * 8]);
-      for (const outlines::ListRecord& record : records) {
-        encodeRecord(record, placed, &recordTexels[next++ * 8]);
-      }
+      const glm::vec3 perStep = 1.0f / placed.step;
+      for (const outlines::ListRecord& record : records)
+        encodeRecord(record, placed, perStep, &recordTexels[next++ * 8]);
     }
   }
   result.records.rgba = std::make_shared<const std::vector<std::uint8_t>>(std::move(recordTexels));

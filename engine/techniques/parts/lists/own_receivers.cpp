@@ -6,8 +6,9 @@
 
 namespace halfshadow::techniques {
 
-Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLists& lists, std::string_view tilesKey,
-                       std::span<const outlines::SubLight> subLights, OwnSurfaces which) {
+Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
+                       std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
+                       OwnSurfaces which) {
   const auto needsNone = [which](const scene::CasterPart& part) {
     return part.convex && which == OwnSurfaces::hollow;
   };
@@ -20,7 +21,7 @@ Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLists& list
                             .receivers = ListedReceivers::casting,
                             .tiles = scene.settings.integer(tilesKey),
                             .tilesKey = tilesKey};
-  if (Status s = lists.update(scene, plan, request); !s) return s;
+  if (Status s = lists.update(scene, plan, loops, request); !s) return s;
   lists.provide(scene, plan);
   return {};
 }

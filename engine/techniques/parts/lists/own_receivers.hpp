@@ -21,7 +21,8 @@ enum class OwnSurfaces {
 /// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them. `tilesKey`: the setting that
 /// holds the number of tiles. `subLights`: those of the fragment file. Errors: outOfMemory (lists exceed the
 /// largest texture).
-Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLists& lists, std::string_view tilesKey,
-                       std::span<const outlines::SubLight> subLights, OwnSurfaces which);
+Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
+                       std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
+                       OwnSurfaces which);
 
 }  // namespace halfshadow::techniques
