@@ -24,7 +24,7 @@ std::uint32_t bufferIn(PassPlan& plan, const PlannedBuffer& buffer) {
 }
 }  // namespace
 
-void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
+void CachedVolume::fill(Streams& streams, const VolumeMesh& mesh) {
   streams.ranges = mesh.ranges;
   streams.made = true;
   streams.vertices.bytes = bytesOf(mesh.vertices);
@@ -35,7 +35,7 @@ void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
                               : bytesOf(mesh.indices);
 }
 
-void CasterVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
+void CachedVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
                             std::uint32_t first, std::uint32_t last) const {
   const Streams& streams = streams_[static_cast<std::size_t>(surface)];
   const auto& ranges = streams.ranges;
@@ -58,10 +58,10 @@ void CasterVolume::addDraws(PassPlan& plan, PlannedPass& pass, const PlannedDraw
   }
 }
 
-const CasterVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+const CachedVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
                                      VolumeSurface surface, int maxLayers, bool wideIndices) {
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
-  CasterVolume& volume = volumes_[caster.object];
+  CachedVolume& volume = volumes_[caster.object];
   volume.used_ = true;
   if (volume.revision_ != caster.revision || volume.lightWorld_ != lightWorld) {
     const glm::dmat3 linear(caster.worldFromObject);
@@ -69,13 +69,13 @@ const CasterVolume& VolumeCache::get(const glm::dvec3& lightWorld, const scene::
         glm::inverse(linear) * (lightWorld - glm::dvec3(caster.worldFromObject[3]));
     scene::extractSilhouette(mesh, lightObject, volume.silhouette_);
     volume.chunks_ = volumeChunks(mesh, volume.silhouette_, lightObject, maxLayers);
-    for (CasterVolume::Streams& streams : volume.streams_) streams.made = false;
+    for (CachedVolume::Streams& streams : volume.streams_) streams.made = false;
     volume.revision_ = caster.revision;
     volume.lightWorld_ = lightWorld;
   }
-  CasterVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
+  CachedVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
   if (!streams.made) {
-    CasterVolume::fill(
+    CachedVolume::fill(
         streams,
         buildVolumeMesh(mesh, volume.silhouette_, volume.chunks_, caster.worldFromObject, lightWorld, surface,
                         wideIndices ? std::numeric_limits<std::uint32_t>::max() : kShortIndexVertices));

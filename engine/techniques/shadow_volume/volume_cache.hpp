@@ -17,7 +17,7 @@
 namespace halfshadow::techniques {
 
 /// The volume of one caster. Pieces are drawn chunk by chunk: chunk i is at most layers[i] thick.
-class CasterVolume {
+class CachedVolume {
  public:
   std::span<const VolumeChunk> chunks() const { return chunks_; }
   /// Adds the buffers of a surface that was made to the plan, and draws of its chunks [first, last) like
@@ -47,13 +47,13 @@ class CasterVolume {
 class VolumeCache {
  public:
   /// `maxLayers`: of each chunk; the same in every call. The reference stays valid until endFrame().
-  const CasterVolume& get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+  const CachedVolume& get(const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
                           VolumeSurface surface, int maxLayers, bool wideIndices);
   /// Drops the volumes that were not asked for since the last call.
   void endFrame();
 
  private:
-  std::unordered_map<std::uint32_t, CasterVolume> volumes_;  ///< by PlacedCaster::object
+  std::unordered_map<std::uint32_t, CachedVolume> volumes_;  ///< by PlacedCaster::object
   std::uint64_t made_ = 0;                                   ///< counts up: keys of buffers
 };
 
