@@ -29,8 +29,8 @@ struct DrawItem {
   glm::vec4 baseColor{1.0f};
   const gl::Texture* baseColorTexture = nullptr;
   scene::Bounds boundsWorld;
-  bool closed = false;    ///< no boundary edges: from outside only front faces are seen
-  bool mirrored = false;  ///< the transform turns the winding round
+  bool closed = false;       ///< no boundary edges: from outside only front faces are seen
+  bool mirrored = false;     ///< the transform turns the winding round
   bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
   const scene::TriangleMesh* sourceMesh = nullptr;
   const scene::CasterGeometry* geometry = nullptr;
