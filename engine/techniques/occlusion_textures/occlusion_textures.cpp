@@ -202,7 +202,8 @@ class OcclusionPlanner final : public LightPlanner {
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item, device::UniformList& uniforms) {
+      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item,
+                                                          device::UniformList& uniforms) {
         const device::Cull hidden = hiddenFaces(item, origin);
         uniforms.set("u_innerSide",
                      hidden == device::Cull::none ? 0.0f : (hidden == device::Cull::back ? 1.0f : -1.0f));
