@@ -97,13 +97,15 @@ techniques::Technique* Engine::State::techniqueNamed(std::string_view id) const 
 }
 
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
-                                   const planner::LightPlan& plan,
+                                   const planner::FramePlan& framePlan,
                                    const std::vector<const EngineObject*>& sceneObjects,
-                                   std::uint64_t sceneRevision, const RenderDesc& desc) {
+                                   const RenderDesc& desc) {
+  const planner::LightPlan& plan = framePlan.lights[index];
   const scene::AreaLight& light = lights[index];
   FrameLight& target = frame.lights[index];
   LightCache& cache = lightCaches[index];
   const int mapSize = settings->integer("map_size");
+  target.casters.reserve(plan.casters.size());
   for (const std::uint32_t i : plan.casters) target.casters.push_back(api::drawItem(*sceneObjects[i]));
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
     cache.casterPointsWorld.clear();
@@ -113,6 +115,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                                   {.mapSize = mapSize, .pointsAreTriangles = true});
     cache.key = plan.contentKey;
     cache.mapSize = mapSize;
+    cache.reachKey = 0;
   }
   techniques::Technique* used = technique;
   if (!plan.active || cache.fit.empty || plan.casters.empty()) {
@@ -120,21 +123,15 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
   }
-  std::vector<api::Receiver> receivers;
   std::vector<bool> isCaster(sceneObjects.size(), false);
   for (const std::uint32_t i : plan.casters) isCaster[i] = true;
   for (std::size_t i = 0; i < sceneObjects.size(); ++i) {
-    const EngineObject* object = sceneObjects[i];
-    if (!object->receives) continue;
     // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
-    if (!isCaster[i]) {
-      target.shadowlessReceivers.push_back(api::drawItem(*object));
-      target.shadowlessReceivers.back().casts = false;
-    }
-    receivers.push_back({&object->mesh, object->worldFromObject,
-                         scene::transformed(object->worldFromObject, object->boundsObject)});
+    if (isCaster[i] || !sceneObjects[i]->receives) continue;
+    target.shadowlessReceivers.push_back(api::drawItem(*sceneObjects[i]));
+    target.shadowlessReceivers.back().casts = false;
   }
-  const std::uint64_t sceneKey = combineKeys(plan.contentKey, sceneRevision);
+  const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
                                      .settings = *settings,
                                      .screen = frame.view,
@@ -146,7 +143,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                                                 .contentKey = plan.contentKey,
                                                 .sceneKey = sceneKey}},
                                      .casterPointsWorld = cache.casterPointsWorld,
-                                     .receiverFarDistance = api::receiverFarDistance(cache.fit, receivers),
+                                     .receiverFarDistance = receiverReach(cache, sceneObjects, sceneKey),
                                      .casters = target.casters,
                                      .groups = cache.groups,
                                      .receivers = frame.receivers,
@@ -173,6 +170,18 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
+}
+
+double Engine::State::receiverReach(LightCache& cache, const std::vector<const EngineObject*>& sceneObjects,
+                                    std::uint64_t sceneKey) const {
+  if (cache.reachKey == sceneKey) return cache.receiverFarDistance;
+  std::vector<api::Receiver> receivers;
+  for (const EngineObject* object : sceneObjects) {
+    if (object->receives) receivers.push_back({&object->mesh, object->worldFromObject, object->boundsWorld});
+  }
+  cache.reachKey = sceneKey;
+  cache.receiverFarDistance = api::receiverFarDistance(cache.fit, receivers);
+  return cache.receiverFarDistance;
 }
 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
@@ -281,18 +290,18 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
 
   std::vector<const EngineObject*> sceneObjects;
   std::vector<planner::PlannedObject> planned;
-  std::uint64_t sceneRevision = 0x5ce11eu;
+  sceneObjects.reserve(objects.size());
+  planned.reserve(objects.size());
   for (const auto& [id, object] : objects) {
     sceneObjects.push_back(&object);
     planned.push_back({.id = id,
-                       .boundsWorld = scene::transformed(object.worldFromObject, object.boundsObject),
+                       .boundsWorld = object.boundsWorld,
                        .revision = object.revision,
                        .casts = object.casts,
                        .receives = object.receives,
                        .mesh = &object.mesh,
                        .support = &object.support(),
                        .worldFromObject = object.worldFromObject});
-    sceneRevision = combineKeys(sceneRevision, object.revision);
   }
   const planner::FramePlan framePlan = planner.plan({.objects = planned,
                                                      .camera = &camera,
@@ -304,6 +313,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   for (const planner::LightPlan& light : framePlan.lights) {
     for (const std::uint32_t i : light.casters) castsForSome[i] = true;
   }
+  frame->receivers.reserve(framePlan.receivers.size());
   for (const std::uint32_t i : framePlan.receivers) {
     auto item = api::receiverItem(*context, *sceneObjects[i], castsForSome[i], frame->view, camera);
     if (!item) return item.error();
@@ -313,9 +323,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc, FrameReport& frameRepo
   lightCaches.resize(lights.size());
   techniques::FramePasses passes{frame->view, frame->graph};
   for (std::size_t i = 0; i < lights.size(); ++i) {
-    if (Status s = declareLight(*frame, passes, i, framePlan.lights[i], sceneObjects, sceneRevision, desc);
-        !s)
-      return s;
+    if (Status s = declareLight(*frame, passes, i, framePlan, sceneObjects, desc); !s) return s;
   }
   if (desc.output != Output::lightsOnly) {
     if (Status s = declareReceiverPasses(*frame, desc); !s) return s;

@@ -24,8 +24,11 @@ void Engine::State::fillReport(const framegraph::Plan& plan, const planner::Fram
     report.skipped.push_back({skip.what, std::string(planner::skipCode(skip.reason)) + ": " +
                                              std::string(planner::skipText(skip.reason))});
   }
-  report.planText = plan.text(graph);
-  report.planGraphviz = plan.graphviz(graph);
+  if (const std::uint64_t key = plan.textKey(graph); key != report.planKey) {
+    report.planKey = key;
+    report.planText = plan.text(graph);
+    report.planGraphviz = plan.graphviz(graph);
+  }
   report.passes.clear();
   for (std::size_t i = 0; i < report.passReports.size(); ++i) {
     const framegraph::PassReport& pass = report.passReports[i];

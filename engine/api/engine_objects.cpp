@@ -72,6 +72,8 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
 void EngineObject::place(const glm::dmat4& worldFromHostNow) {
   worldFromHost = worldFromHostNow;
   worldFromObject = glm::translate(worldFromHost, recenteredBy);
+  boundsWorld = scene::transformed(worldFromObject, boundsObject);
+  mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0;
 }
 
 const scene::SupportingPlanes& EngineObject::support() const {
@@ -149,6 +151,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   }
   object.mesh.positions = std::move(positions);
   object.recenteredBy = scene::recenter(object.mesh);
+  object.boundsObject = scene::boundsOf(object.mesh);
   object.place(object.worldFromHost);
   object.geometry.positionsChanged();
   object.supportingPlanes.reset();
@@ -166,7 +169,6 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   } else if (const Status updated = object.gpu.update(*state.context, object.mesh); !updated) {
     return state.fail(updated.error());
   }
-  object.boundsObject = scene::boundsOf(object.mesh);
   object.revision = state.nextRevision++;
   return {};
 }

@@ -42,8 +42,9 @@ struct EngineObject {
   glm::dmat4 worldFromHost{1.0};    ///< as the host placed the positions that it gave
   glm::dvec3 recenteredBy{0.0};     ///< what was taken off those
   glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
-  scene::Bounds boundsObject;
-  /// Sets worldFromObject; recenteredBy is set before.
+  scene::Bounds boundsObject, boundsWorld;
+  bool mirrored = false;
+  /// Sets worldFromObject and what follows from it; recenteredBy and boundsObject are set before.
   void place(const glm::dmat4& worldFromHostNow);
   /// Of the positions there are now; found on the first call.
   const scene::SupportingPlanes& support() const;
@@ -63,12 +64,15 @@ struct LightCache {
   scene::CasterGroups groups;
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFit fit;
+  std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
+  double receiverFarDistance = 0.0;
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };
 
 /// Strings and arrays that a FrameReport points to.
 struct ReportStorage {
+  std::uint64_t planKey = 0;  ///< of planText and planGraphviz
   std::vector<framegraph::PassReport> passReports;
   std::vector<framegraph::Graph::Skipped> skipped;
   std::vector<PassRecord> passes;
@@ -126,8 +130,11 @@ struct Engine::State {
   /// Null when there is none of that id.
   techniques::Technique* techniqueNamed(std::string_view id) const;
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
-                      const planner::LightPlan& plan, const std::vector<const EngineObject*>& objects,
-                      std::uint64_t sceneRevision, const RenderDesc& desc);
+                      const planner::FramePlan& framePlan, const std::vector<const EngineObject*>& objects,
+                      const RenderDesc& desc);
+  /// Of the receivers in the light's fit; found again when the scene changed.
+  double receiverReach(LightCache& cache, const std::vector<const EngineObject*>& objects,
+                       std::uint64_t sceneKey) const;
   /// Prepares, uploads and declares the light's passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index,
                                                 techniques::Technique& technique,

@@ -66,23 +66,6 @@ std::uint64_t keyOf(const FrameInput& input, std::uint64_t lightRevision,
   return key == 0 ? 1 : key;
 }
 
-std::uint64_t castersRevision(const FrameInput& input) {
-  std::uint64_t revision = kKeySeed;
-  for (const PlannedObject& object : input.objects) {
-    if (object.casts) revision = combineKeys(combineKeys(revision, object.id), object.revision);
-  }
-  return revision;
-}
-
-std::uint64_t sceneRevision(const FrameInput& input) {
-  std::uint64_t revision = kKeySeed;
-  for (const PlannedObject& object : input.objects) {
-    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
-    revision = combineKeys(combineKeys(combineKeys(revision, object.id), object.revision), roles);
-  }
-  return revision;
-}
-
 std::uint64_t cameraKeyOf(const FrameInput& input) {
   if (input.camera == nullptr) return 0;
   std::uint64_t key = kKeySeed;
@@ -131,6 +114,18 @@ void FramePlanner::reset() {
   history_.clear();
 }
 
+FramePlanner::Revisions FramePlanner::revisionsOf(const FrameInput& input) {
+  Revisions revisions{kKeySeed, kKeySeed};
+  for (const PlannedObject& object : input.objects) {
+    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+    revisions.scene =
+        combineKeys(combineKeys(combineKeys(revisions.scene, object.id), object.revision), roles);
+    if (object.casts)
+      revisions.casters = combineKeys(combineKeys(revisions.casters, object.id), object.revision);
+  }
+  return revisions;
+}
+
 void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
                                 LightHistory& history) {
   history.relevant.clear();
@@ -168,7 +163,8 @@ bool FramePlanner::relevanceIsStale(const FrameInput& input, std::size_t light, 
 }
 
 LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                                  LightHistory& history, std::vector<Skip>& skips) {
+                                  const Revisions& revisions, LightHistory& history,
+                                  std::vector<Skip>& skips) {
   const std::uint64_t lightRevision = light < input.lightRevisions.size() ? input.lightRevisions[light] : 0;
   const std::string lightName = "light " + std::to_string(light);
   LightPlan plan;
@@ -178,13 +174,12 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
     skips.push_back({lightName, SkipReason::lightOff});
     return plan;
   }
-  const std::uint64_t castersNow = castersRevision(input);
   const bool first = history.key == 0;
   const bool changed =
-      first || history.lightRevision != lightRevision || history.castersRevision != castersNow;
+      first || history.lightRevision != lightRevision || history.castersRevision != revisions.casters;
   history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
   const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
-  const std::uint64_t sceneNow = combineKeys(sceneRevision(input), lightRevision);
+  const std::uint64_t sceneNow = combineKeys(revisions.scene, lightRevision);
   bool relevantChanged = false;
   if (first || sceneNow != history.sceneRevision || relevanceIsStale(input, light, history)) {
     const std::vector<std::uint32_t> before = history.relevant;
@@ -195,7 +190,8 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
 
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
   std::vector<std::uint32_t> needed = history.relevant, outOfView;
-  if (dynamic || history.reduced) {
+  const bool allVisible = receivers.visible.size() == receivers.all.size();  // then none can be dropped
+  if ((dynamic || history.reduced) && !allVisible) {
     Separation separation(input, input.lights[light]);
     const auto split = std::stable_partition(needed.begin(), needed.end(), [&](std::uint32_t caster) {
       return !apartFrom(input, input.lights[light], separation, caster, receivers.visible);
@@ -204,8 +200,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
     needed.erase(split, needed.end());
   }
   const auto drawnBefore = [&](std::uint32_t caster) {
-    const auto& drawn = history.drawnIds;
-    return std::find(drawn.begin(), drawn.end(), input.objects[caster].id) != drawn.end();
+    return std::ranges::binary_search(history.drawnIds, input.objects[caster].id);
   };
   if (dynamic) {
     plan.casters = needed;
@@ -233,22 +228,28 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, co
     skips.push_back({lightName, SkipReason::unchanged});
   }
   history.lightRevision = lightRevision;
-  history.castersRevision = castersNow;
+  history.castersRevision = revisions.casters;
   history.sceneRevision = sceneNow;
   history.key = plan.contentKey;
   history.drawnIds.clear();
   for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(input.objects[caster].id);
+  std::ranges::sort(history.drawnIds);
   return plan;
 }
 
 FramePlan FramePlanner::plan(const FrameInput& input) {
   FramePlan plan;
   Receivers receivers;
+  glm::dmat4 clipFromWorld(1.0);
+  if (input.camera) {
+    clipFromWorld =
+        scene::clipFromView(*input.camera, input.aspectWidthOverHeight) * scene::viewFromWorld(*input.camera);
+  }
   for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
     const PlannedObject& object = input.objects[i];
     if (!object.receives || object.boundsWorld.empty()) continue;
     receivers.all.push_back(i);
-    if (!input.camera || visibleFrom(*input.camera, input.aspectWidthOverHeight, object.boundsWorld)) {
+    if (!input.camera || visibleIn(clipFromWorld, object.boundsWorld)) {
       plan.receivers.push_back(i);
     } else {
       plan.skips.push_back({"receiver " + std::to_string(object.id), SkipReason::receiverOutOfView});
@@ -258,8 +259,10 @@ FramePlan FramePlanner::plan(const FrameInput& input) {
   receivers.visible = largestFirst(input, plan.receivers);
   if (input.camera) sortFrontToBack(input, plan.receivers);
   history_.resize(input.lights.size());
+  const Revisions revisions = revisionsOf(input);
+  plan.sceneRevision = revisions.scene;
   for (std::size_t light = 0; light < input.lights.size(); ++light) {
-    plan.lights.push_back(planLight(input, light, receivers, history_[light], plan.skips));
+    plan.lights.push_back(planLight(input, light, receivers, revisions, history_[light], plan.skips));
   }
   return plan;
 }

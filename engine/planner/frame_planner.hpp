@@ -75,6 +75,7 @@ struct FramePlan {
   std::vector<std::uint32_t> receivers;  ///< indices into FrameInput::objects
   std::vector<LightPlan> lights;
   std::vector<Skip> skips;
+  std::uint64_t sceneRevision = 0;  ///< of all objects: changes with any of them
 };
 
 /// Keeps, per light, which casters the cached light view holds.
@@ -95,7 +96,7 @@ class FramePlanner {
     std::uint64_t lightRevision = 0;
     std::uint64_t castersRevision = 0;
     int changedFramesRunning = 0;
-    std::vector<std::uint32_t> drawnIds;
+    std::vector<std::uint32_t> drawnIds;  ///< sorted
     std::uint64_t key = 0;
     bool reduced = false;  ///< the view lacks casters that no visible receiver needed
     // Searched again only when the scene or the light changes; or the camera, where relevance depends on it.
@@ -112,11 +113,16 @@ class FramePlanner {
   struct Receivers {
     std::vector<std::uint32_t> all, visible;  // largest first
   };
+  /// Of all objects, once a frame.
+  struct Revisions {
+    std::uint64_t casters = 0, scene = 0;
+  };
+  static Revisions revisionsOf(const FrameInput& input);
   static void findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
                            LightHistory& history);
   static bool relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history);
   static LightPlan planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                             LightHistory& history, std::vector<Skip>& skips);
+                             const Revisions& revisions, LightHistory& history, std::vector<Skip>& skips);
   std::vector<LightHistory> history_;
 };
 
@@ -127,5 +133,6 @@ bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& caste
 
 /// True when the box can be inside the camera's view. Conservative.
 bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight, const scene::Bounds& boundsWorld);
+bool visibleIn(const glm::dmat4& clipFromWorld, const scene::Bounds& boundsWorld);
 
 }  // namespace halfshadow::planner

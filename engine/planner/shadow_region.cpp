@@ -156,9 +156,12 @@ bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& caste
 
 bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight,
                  const scene::Bounds& boundsWorld) {
+  return visibleIn(scene::clipFromView(camera, aspectWidthOverHeight) * scene::viewFromWorld(camera),
+                   boundsWorld);
+}
+
+bool visibleIn(const glm::dmat4& clipFromWorld, const scene::Bounds& boundsWorld) {
   if (boundsWorld.empty()) return false;
-  const glm::dmat4 clipFromWorld =
-      scene::clipFromView(camera, aspectWidthOverHeight) * scene::viewFromWorld(camera);
   std::array<glm::dvec4, 8> clip;
   double scale = 0.0;
   const auto corners = boundsWorld.corners();

@@ -8,18 +8,20 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Seen from outside, it hides what is inside.
-bool isDrawn(const LightScene& scene, std::uint32_t placed) {
+/// By placed caster: seen from outside, it hides what is inside.
+std::vector<bool> drawnCasters(const LightScene& scene, std::size_t placedCount) {
+  std::vector<bool> drawn(placedCount, true);
   for (std::size_t i = 0; i < scene.casters.size(); ++i) {
-    if (scene.groups.placedOf(i) == placed && !scene.casters[i].receives) return false;
+    if (!scene.casters[i].receives) drawn[scene.groups.placedOf(i)] = false;
   }
-  return true;
+  return drawn;
 }
 }  // namespace
 
 std::vector<outlines::RoomPart> partsSeenInside(const LightScene& scene) {
   std::vector<outlines::RoomPart> seen;
   const std::span<const scene::PlacedCaster> casters = placedCasters(scene);
+  const std::vector<bool> drawn = drawnCasters(scene, casters.size());
   for (std::uint32_t object = 0; object < casters.size(); ++object) {
     const scene::PlacedCaster& caster = casters[object];
     const glm::dmat4 clipFromObject = scene.screen.clipFromWorld * caster.worldFromObject;
@@ -27,7 +29,7 @@ std::vector<outlines::RoomPart> partsSeenInside(const LightScene& scene) {
       const scene::CasterPart& own = caster.mesh->parts()[part];
       if (!own.closed) continue;
       // Gaps that were filled are filled for the light, not for the eye.
-      const bool hidesInside = own.filledGaps == 0 && isDrawn(scene, object) &&
+      const bool hidesInside = own.filledGaps == 0 && drawn[object] &&
                                sideSeenFrom(*caster.mesh, own, clipFromObject) == scene::PartSide::outside;
       if (!hidesInside) seen.push_back({object, part});
     }

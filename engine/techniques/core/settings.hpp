@@ -25,6 +25,9 @@ struct SettingInfo {
   std::string text;                  ///< one sentence, with the unit
 };
 
+/// Those that hold for every technique that uses them.
+std::vector<SettingInfo> commonSettings();
+
 /// Values by key, all valid. Keys are declared once by the registry.
 class Settings {
  public:

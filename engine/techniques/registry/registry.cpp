@@ -30,44 +30,7 @@ std::vector<std::unique_ptr<Technique>> makeAllTechniques() {
 }
 
 std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique>>& techniques) {
-  std::vector<SettingInfo> settings = {
-      {"map_size", SettingType::integer, "1024", 16, 8192, {}, "side of depth maps in texels"},
-      {"bias",
-       SettingType::real,
-       "1.0",
-       0,
-       16,
-       {},
-       "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"},
-      {"filter_skip",
-       SettingType::choice,
-       "stencil",
-       0,
-       0,
-       {"branch", "loop", "stencil"},
-       "how pixels that need no filter skip it, where a technique leaves it open; device profiles set it"},
-      {"occlusion_prefilter",
-       SettingType::choice,
-       "nbuffer",
-       0,
-       0,
-       {"nbuffer", "sat"},
-       "what occlusion-textures.filter=auto means: the cheaper of the two accurate prefilters; device "
-       "profiles set it"},
-      {"wedge_route",
-       SettingType::choice,
-       "gather",
-       0,
-       0,
-       {"gather", "scatter", "fetch"},
-       "what wedges-cells.route=auto means; device profiles set it"},
-      {"wedge_merge",
-       SettingType::choice,
-       "gather",
-       0,
-       0,
-       {"gather", "core", "minmax", "fetch"},
-       "what wedges-blended.merge=auto means; device profiles set it"}};
+  std::vector<SettingInfo> settings = commonSettings();
   for (const auto& technique : techniques) {
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }

@@ -17,7 +17,7 @@ std::shared_ptr<const std::vector<std::byte>> bytesOf(const std::vector<T>& valu
 }
 }  // namespace
 
-void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
+void CachedVolume::fill(Streams& streams, const VolumeMesh& mesh) {
   streams.ranges = mesh.ranges;
   streams.made = true;
   streams.vertices.bytes = bytesOf(mesh.vertices);
@@ -28,7 +28,7 @@ void CasterVolume::fill(Streams& streams, const VolumeMesh& mesh) {
                               : bytesOf(mesh.indices);
 }
 
-void CasterVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
+void CachedVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,
                             std::uint32_t first, std::uint32_t last) const {
   const Streams& streams = streams_[static_cast<std::size_t>(surface)];
   const auto& ranges = streams.ranges;
@@ -51,11 +51,11 @@ void CasterVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSu
   }
 }
 
-const CasterVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorld,
+const CachedVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorld,
                                      const scene::PlacedCaster& caster, VolumeSurface surface, int maxLayers,
                                      bool wideIndices) {
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
-  CasterVolume& volume = volumes_[caster.object];
+  CachedVolume& volume = volumes_[caster.object];
   volume.used_ = true;
   if (volume.revision_ != caster.revision || volume.lightWorld_ != lightWorld) {
     const glm::dmat3 linear(caster.worldFromObject);
@@ -63,13 +63,13 @@ const CasterVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorl
         glm::inverse(linear) * (lightWorld - glm::dvec3(caster.worldFromObject[3]));
     scene::extractSilhouette(mesh, lightObject, volume.silhouette_);
     volume.chunks_ = volumeChunks(mesh, volume.silhouette_, lightObject, maxLayers);
-    for (CasterVolume::Streams& streams : volume.streams_) streams.made = false;
+    for (CachedVolume::Streams& streams : volume.streams_) streams.made = false;
     volume.revision_ = caster.revision;
     volume.lightWorld_ = lightWorld;
   }
-  CasterVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
+  CachedVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
   if (!streams.made) {
-    CasterVolume::fill(
+    CachedVolume::fill(
         streams,
         buildVolumeMesh(mesh, volume.silhouette_, volume.chunks_, caster.worldFromObject, lightWorld, surface,
                         wideIndices ? std::numeric_limits<std::uint32_t>::max() : kShortIndexVertices));
@@ -78,7 +78,7 @@ const CasterVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorl
     streams.indices.id = id + 1;
     streams.vertices.key = streams.indices.key = ++made_;
   }
-  for (CasterVolume::Streams& held : volume.streams_) {
+  for (CachedVolume::Streams& held : volume.streams_) {
     if (!held.made) continue;
     held.verticesInPlan = plan.addBuffer(held.vertices);
     held.indicesInPlan = plan.addBuffer(held.indices);

@@ -17,7 +17,7 @@
 namespace halfshadow::techniques {
 
 /// The volume of one caster. Pieces are drawn chunk by chunk: chunk i is at most layers[i] thick.
-class CasterVolume {
+class CachedVolume {
  public:
   std::span<const VolumeChunk> chunks() const { return chunks_; }
   /// Adds draws like `draw` of chunks [first, last) of a surface that was made.
@@ -48,13 +48,13 @@ class VolumeCache {
  public:
   /// Its buffers go to the plan, also those of the other surface if that was made for an earlier frame.
   /// `maxLayers`: of each chunk; the same in every call. The reference stays valid until endFrame().
-  const CasterVolume& get(PassPlan& plan, const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+  const CachedVolume& get(PassPlan& plan, const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
                           VolumeSurface surface, int maxLayers, bool wideIndices);
   /// Drops the volumes that were not asked for since the last call.
   void endFrame();
 
  private:
-  std::unordered_map<std::uint32_t, CasterVolume> volumes_;  ///< by PlacedCaster::object
+  std::unordered_map<std::uint32_t, CachedVolume> volumes_;  ///< by PlacedCaster::object
   std::uint64_t made_ = 0;                                   ///< counts up: keys of buffers
 };
 

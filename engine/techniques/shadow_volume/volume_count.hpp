@@ -23,7 +23,7 @@ int maxVolumeLayers(VolumeCounter counter);
 
 /// How one caster of one light is counted. Pointers last while the light is planned.
 struct VolumeDraw {
-  const CasterVolume* volume = nullptr;
+  const CachedVolume* volume = nullptr;
   std::uint32_t firstChunk = 0, lastChunk = 0;
   VolumeSurface surface = VolumeSurface::sides;
   bool depthFail = false;  ///< counts what lies behind the receiver, else what lies in front

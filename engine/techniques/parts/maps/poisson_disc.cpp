@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <map>
 
 namespace halfshadow::techniques {
 namespace {
@@ -40,8 +41,13 @@ std::vector<glm::vec2> poissonDisc(int count) {
   return points;
 }
 
-std::string poissonTapsDefine(int count) {
-  std::string define = "HS_POISSON_TAPS(TAP)";
+const std::string& poissonTapsDefine(int count) {
+  // A constant of each count; engines may live on several threads.
+  thread_local std::map<int, std::string> known;
+  const auto [place, added] = known.try_emplace(count);
+  if (!added) return place->second;
+  std::string& define = place->second;
+  define = "HS_POISSON_TAPS(TAP)";
   for (const glm::vec2& point : poissonDisc(count)) {
     char tap[64];
     std::snprintf(tap, sizeof tap, " TAP(%.4f, %.4f)", static_cast<double>(point.x),

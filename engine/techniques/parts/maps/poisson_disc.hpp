@@ -14,7 +14,8 @@ namespace halfshadow::techniques {
 /// Based on: Mitchell, "Spectrally Optimal Sampling for Distribution Ray Tracing", 1991, section 4.
 std::vector<glm::vec2> poissonDisc(int count);
 
-/// The macro that unrolls the taps in a shader: "HS_POISSON_TAPS(TAP) TAP(x, y) …".
-std::string poissonTapsDefine(int count);
+/// The macro that unrolls the taps in a shader: "HS_POISSON_TAPS(TAP) TAP(x, y) …". Found once for each
+/// count.
+const std::string& poissonTapsDefine(int count);
 
 }  // namespace halfshadow::techniques

@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// CPU time and allocations of the engine per frame, by technique, number of boxes, and what changes. The
+/// target and the maps are tiny and nothing is drawn: the draw calls that the engine gets end here, once it
+/// has probed its context. What remains is planning, uploading and encoding, with the driver's share of all
+/// other calls.
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <memory>
+#include <new>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "egl/headless.hpp"
+#include "halfshadow/halfshadow.hpp"
+
+namespace {
+thread_local std::uint64_t allocations = 0;  // a software renderer's own threads do not count
+}
+
+void* operator new(std::size_t size) {
+  ++allocations;
+  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  throw std::bad_alloc();
+}
+void operator delete(void* memory) noexcept {
+  std::free(memory);
+}
+void operator delete(void* memory, std::size_t) noexcept {
+  std::free(memory);
+}
+
+namespace halfshadow {
+namespace {
+
+constexpr int kWidth = 32, kHeight = 24;
+constexpr double kSpacing = 1.0, kHalfSize = 0.2;
+constexpr int kWarmUpFrames = 6;  // programs are linked, and whatever moves counts as moving
+
+enum class Change { nothing, oneMover, light };
+
+using DrawArrays = void (*)(unsigned mode, int first, int count);
+using DrawElements = void (*)(unsigned mode, int count, unsigned type, const void* indices);
+DrawArrays driverDrawArrays = nullptr;
+DrawElements driverDrawElements = nullptr;
+bool draws = true;
+
+void drawArrays(unsigned mode, int first, int count) {
+  if (draws) driverDrawArrays(mode, first, count);
+}
+void drawElements(unsigned mode, int count, unsigned type, const void* indices) {
+  if (draws) driverDrawElements(mode, count, type, indices);
+}
+
+void* loadEntryPoint(const char* name, void* user) {
+  void* address = static_cast<HeadlessContext*>(user)->getProcAddress(name);
+  if (std::string_view(name) == "glDrawArrays") {
+    driverDrawArrays = reinterpret_cast<DrawArrays>(address);
+    return reinterpret_cast<void*>(&drawArrays);
+  }
+  if (std::string_view(name) == "glDrawElements") {
+    driverDrawElements = reinterpret_cast<DrawElements>(address);
+    return reinterpret_cast<void*>(&drawElements);
+  }
+  return address;
+}
+
+constexpr std::array<std::uint32_t, 36> kBoxIndices{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
+                                                    2, 6, 3, 3, 6, 7, 0, 4, 2, 2, 4, 6, 1, 3, 5, 3, 7, 5};
+
+std::array<float, 24> boxCorners(double halfX, double halfY, double halfZ) {
+  std::array<float, 24> corners{};
+  for (std::size_t i = 0; i < 8; ++i) {
+    corners[3 * i] = static_cast<float>((i & 1u) != 0 ? halfX : -halfX);
+    corners[3 * i + 1] = static_cast<float>((i & 2u) != 0 ? halfY : -halfY);
+    corners[3 * i + 2] = static_cast<float>((i & 4u) != 0 ? halfZ : -halfZ);
+  }
+  return corners;
+}
+
+/// An engine with a square of boxes over a ground, all in view of the camera.
+class BoxField {
+ public:
+  static std::unique_ptr<BoxField> make(int boxes, std::string& error) {
+    auto context = createHeadless({});
+    if (!context) {
+      error = context.error().message;
+      return nullptr;
+    }
+    std::unique_ptr<BoxField> field(new BoxField);
+    field->context_ = std::move(context).value();
+    Outcome outcome;
+    draws = true;
+    field->engine_.reset(Engine::create({.getProcAddress = loadEntryPoint,
+                                         .getProcAddressUser = field->context_.get(),
+                                         .hostState = HostState::leaveDirty},
+                                        outcome));
+    draws = false;
+    if (outcome.ok()) outcome = field->fill(boxes);
+    if (outcome.ok()) return field;
+    error = outcome.message;
+    return nullptr;
+  }
+
+  /// Errors are those of the engine, as text; empty when there is none.
+  std::string choose(const char* technique) {
+    if (const Outcome small = engine_->set("map_size", "64"); !small.ok()) return small.message;
+    const Outcome outcome = engine_->setTechnique(technique);
+    return outcome.ok() ? "" : outcome.message;
+  }
+
+  std::string renderNext(Change change) {
+    ++frame_;
+    const double step = 0.1 * std::sin(0.3 * frame_);
+    if (change == Change::oneMover) moveFirstBox(step);
+    if (change == Change::light) setLight(step);
+    FrameReport report;
+    const Outcome outcome = engine_->render(desc_, report);
+    return outcome.ok() ? "" : outcome.message;
+  }
+
+  void finish() { engine_->finish(); }
+
+ private:
+  BoxField() = default;
+
+  Outcome fill(int boxes) {
+    const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
+    extent_ = 0.5 * kSpacing * side;
+    const auto ground = boxCorners(1.5 * extent_, 0.05, 1.5 * extent_);
+    ObjectId id = 0;
+    if (const Outcome added = add(ground, 0.0, -0.05, 0.0, id); !added.ok()) return added;
+    const auto corners = boxCorners(kHalfSize, kHalfSize, kHalfSize);
+    for (int i = 0; i < boxes; ++i) {
+      const double x = kSpacing * (i % side) - extent_, z = kSpacing * (i / side) - extent_;
+      if (const Outcome added = add(corners, x, 0.5, z, id); !added.ok()) return added;
+      if (i == 0) mover_ = id, moverX_ = x, moverZ_ = z;
+    }
+    desc_.camera.eye[1] = 3.0 * extent_ + 2.0;
+    desc_.camera.eye[2] = 2.0 * extent_ + 2.0;
+    desc_.camera.farDistance = 20.0 * extent_ + 20.0;
+    desc_.target.width = kWidth;
+    desc_.target.height = kHeight;
+    desc_.output = Output::visibility;
+    return setLight(0.0);
+  }
+
+  Outcome add(const std::array<float, 24>& corners, double x, double y, double z, ObjectId& id) {
+    ObjectDesc object;
+    object.mesh.positions = corners.data();
+    object.mesh.vertexCount = 8;
+    object.mesh.indices = kBoxIndices.data();
+    object.mesh.indexCount = kBoxIndices.size();
+    object.worldFromObject[12] = x;
+    object.worldFromObject[13] = y;
+    object.worldFromObject[14] = z;
+    return engine_->addObject(object, id);
+  }
+
+  void moveFirstBox(double step) {
+    const double worldFromObject[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, moverX_ + step, 0.5, moverZ_, 1};
+    engine_->setTransform(mover_, worldFromObject);
+  }
+
+  Outcome setLight(double step) {
+    LightDesc light;
+    light.center[0] = step;
+    light.center[1] = 3.0 * extent_;
+    light.halfU[0] = 0.1 * extent_;
+    light.halfV[2] = 0.1 * extent_;  // halfU x halfV points down
+    return engine_->setLights(&light, 1);
+  }
+
+  std::unique_ptr<HeadlessContext> context_;
+  std::unique_ptr<Engine> engine_;
+  RenderDesc desc_;
+  double extent_ = 1.0, moverX_ = 0.0, moverZ_ = 0.0;
+  ObjectId mover_ = 0;
+  int frame_ = 0;
+};
+
+void frame(benchmark::State& state, const char* technique, Change change) {
+  std::string error;
+  const auto field = BoxField::make(static_cast<int>(state.range(0)), error);
+  if (field) error = field->choose(technique);
+  for (int i = 0; error.empty() && i < kWarmUpFrames; ++i) error = field->renderNext(change);
+  if (!error.empty()) {
+    state.SkipWithError(error.c_str());
+    return;
+  }
+  std::uint64_t allocated = 0;
+  for (auto unused : state) {
+    const std::uint64_t before = allocations;
+    error = field->renderNext(change);
+    allocated += allocations - before;
+    state.PauseTiming();  // what the driver still does must not run into the next frame's time
+    field->finish();
+    state.ResumeTiming();
+    if (!error.empty()) break;
+  }
+  if (!error.empty()) state.SkipWithError(error.c_str());
+  state.counters["allocations"] =
+      static_cast<double>(allocated) / static_cast<double>(std::max<std::int64_t>(1, state.iterations()));
+}
+
+void registerAll() {
+  struct Named {
+    const char* name;
+    Change change;
+  };
+  for (const char* technique :
+       {"none", "hard", "pcss-mip", "shadow-width", "wedges-blended", "wedges-cells"}) {
+    for (const Named& what :
+         {Named{"unchanged", Change::nothing}, {"mover", Change::oneMover}, {"light", Change::light}}) {
+      const std::string name = std::string(technique) + "/" + what.name;
+      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change)
+          ->Arg(20)
+          ->Arg(200)
+          ->Arg(2000)
+          ->Unit(benchmark::kMicrosecond)
+          ->UseRealTime();
+    }
+  }
+}
+
+}  // namespace
+}  // namespace halfshadow
+
+int main(int argc, char** argv) {
+  halfshadow::registerAll();
+  benchmark::Initialize(&argc, argv);
+  if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 1;
+  benchmark::RunSpecifiedBenchmarks();
+  return 0;
+}
