@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "techniques/core/caster_spread.hpp"
+#include "techniques/occlusion_textures/occlusion_shaders.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
 
 namespace halfshadow::techniques {
@@ -146,6 +147,7 @@ class OcclusionTextures final : public Technique {
     if (readChoices(scene.settings).paper()) return std::nullopt;
     return sampledWhereCastersSpread(scene, kWidestSpread);
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return occlusionShaders(kMostBoxes); }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 
@@ -202,7 +204,8 @@ class OcclusionPlanner final : public LightPlanner {
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item, device::UniformList& uniforms) {
+      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item,
+                                                          device::UniformList& uniforms) {
         const device::Cull hidden = hiddenFaces(item, origin);
         uniforms.set("u_innerSide",
                      hidden == device::Cull::none ? 0.0f : (hidden == device::Cull::back ? 1.0f : -1.0f));

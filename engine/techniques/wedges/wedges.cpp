@@ -5,6 +5,7 @@
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
+#include "techniques/parts/wedges/wedge_shaders.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -81,6 +82,7 @@ class AdditiveWedges final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges.route"), own_.setting()};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     return own_.addTo(routes_.declareSums(frame, frame.settings.choice("wedges.route")), frame);
   }
@@ -112,6 +114,7 @@ class ProbabilisticWedges final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges-probabilistic.route"), own_.setting()};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     auto route = routes_.choose(frame, frame.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
     if (!route) return route.error();

@@ -8,6 +8,7 @@
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
+#include "techniques/wedges_blended/vbuffer_shaders.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
 
 namespace halfshadow::techniques {
@@ -92,6 +93,7 @@ class WedgesBlended final : public Technique {
          {},
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
   Result<ReceiverShading> declare(const LightFrame& frame) override {
     if (lightIsInRoom(frame)) {
       frame.graph.noteSkipped("light " + std::to_string(frame.lightIndex) + " merge",
