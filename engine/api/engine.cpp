@@ -4,7 +4,6 @@
 
 #include "api/engine_state.hpp"
 #include "gl/embedded_shaders.hpp"
-#include "techniques/registry/shader_table.hpp"
 
 namespace halfshadow {
 namespace {
@@ -61,14 +60,14 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
   State& state = *engine->state_;
   state.context = std::move(context).value();
   state.hostState = desc.hostState;
+  state.techniques = techniques::makeAllTechniques();
   state.programs =
       std::make_unique<gl::ProgramCache>(*state.context,
                                          desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder)
                                                            : gl::ShaderSourceProvider(gl::embeddedShader),
-                                         techniques::shaderTable());
+                                         techniques::allShaderFamilies(state.techniques));
   state.encoder = std::make_unique<gl::Encoder>(*state.context);
   state.executor = std::make_unique<framegraph::Executor>(*state.context);
-  state.techniques = techniques::makeAllTechniques();
   state.settings = std::make_unique<techniques::Settings>(techniques::allSettings(state.techniques));
   for (const auto& technique : state.techniques) {
     state.techniqueReasons.push_back(technique->support(state.context->capabilities()).reason);

@@ -16,7 +16,7 @@
 
 #include "base/error.hpp"
 #include "device/draw_state.hpp"
-#include "device/program_variant.hpp"
+#include "device/shader_family.hpp"
 #include "device/uniforms.hpp"
 #include "gl/objects.hpp"
 
@@ -100,34 +100,28 @@ Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::st
 /// Names of `uniform … sampler2D` declarations in order of appearance, each once; comments are skipped.
 std::vector<std::string> samplerNamesOf(std::string_view source);
 
-/// One row of the table of allowed variants: a pair of files and the names of the defines that may be set
-/// with it.
-struct AllowedVariants {
-  std::string_view vertexFile, fragmentFile;
-  std::vector<std::string_view> defines;
-};
-
 class ProgramCache {
  public:
-  /// `allowed`: variants outside it are refused (internal), so that what the tests compile is all there is;
-  /// empty = everything is allowed.
-  ProgramCache(Context& context, ShaderSourceProvider provider, std::vector<AllowedVariants> allowed = {});
-  /// Linked on first use, kept until clear(). The pointer stays valid until then. Errors: shaderFailed with
-  /// the driver's log and the variant.
+  /// `families`: variants outside them are refused, so that what the tests compile is all there is; empty =
+  /// everything is allowed.
+  ProgramCache(Context& context, ShaderSourceProvider provider,
+               std::vector<device::ShaderFamily> families = {});
+  /// Linked on first use, kept until clear(). The pointer stays valid until then. Errors: internal for a
+  /// variant outside the families; shaderFailed with the driver's log and the variant.
   Result<Program*> get(const ProgramVariant& variant);
-  /// Source of one stage as the cache would compile it, whether or not the variant is in the table.
-  Result<std::string> assemble(std::string_view fileName, const std::vector<std::string>& defines) const {
-    return assembleShader(provider_, fileName, defines, context_.capabilities());
-  }
+  /// Sources as get() would compile them.
+  struct Sources {
+    std::string vertex, fragment;
+  };
+  Result<Sources> assemble(const ProgramVariant& variant) const;
   void clear();
   std::size_t size() const { return programs_.size(); }
   const device::Capabilities& capabilities() const { return context_.capabilities(); }
 
  private:
   Context& context_;
-  Status checkAllowed(const ProgramVariant& variant) const;
   ShaderSourceProvider provider_;
-  std::vector<AllowedVariants> allowed_;
+  std::vector<device::ShaderFamily> families_;
   std::map<ProgramVariant, std::unique_ptr<Program>> programs_;
 };
 

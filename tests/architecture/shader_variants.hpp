@@ -1,39 +1,23 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Which shader variants the engine may ask for: the one table to extend when a shader or a define is added.
+/// The shader variants that tests compile: of what the techniques declare.
 #pragma once
 
-#include <string>
-#include <vector>
+#include "device/shader_family.hpp"
 
 namespace halfshadow::architecture {
 
-using Defines = std::vector<std::string>;
-
-/// A pair of shader files with the define sets that the engine combines with it.
-struct ShaderFamily {
-  enum class Depth { independent, perStorage };  ///< whether the variants exist once per way to store depth
-  enum class Kind {
-    pass,
-    receiver
-  };  ///< receivers exist once per output, facets with and without derivatives
-  std::string vertexFile, fragmentFile;
-  Depth depth = Depth::independent;
-  Kind kind = Kind::pass;
-  std::vector<Defines> defineSets{{}};
-  /// Receivers whose mask is evaluated in a draw of its own.
-  bool twoDraws = false;
-};
-const std::vector<ShaderFamily>& shaderFamilies();
-
-/// One variant as a driver would get it.
+/// One variant as a driver would get it, on a context with or without highp and derivatives.
 struct ShaderVariant {
   std::string vertexFile, fragmentFile;
-  Defines defines;
+  std::vector<std::string> defines;
   bool highp = true, derivatives = true;
 };
-/// All variants of all families.
-std::vector<ShaderVariant> shaderVariants();
+
+/// Of `family` so many that any two choices of two axes that can be taken together are in one of them.
+std::vector<ShaderVariant> compiledVariants(const device::ShaderFamily& family);
+/// Of all families.
+const std::vector<ShaderVariant>& shaderVariants();
 
 }  // namespace halfshadow::architecture

@@ -6,6 +6,7 @@
 
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -50,7 +51,7 @@ device::Capabilities capabilitiesOf(const ShaderVariant& variant) {
   return capabilities;
 }
 
-std::string textOf(const std::string& file, const Defines& defines) {
+std::string textOf(const std::string& file, const std::vector<std::string>& defines) {
   std::string text = file + " with";
   for (const std::string& define : defines) text += " " + define.substr(0, 40);
   return text;
@@ -100,8 +101,9 @@ TEST(ShaderVariants, AllPassTheReferenceCompiler) {
       std::ofstream(scratch.path() / name) << withoutFetch(*source);
     }
   }
+  std::printf("%zu sources\n", fileOfSource.size());
   ASSERT_GT(fileOfSource.size(), 200u)
-      << "three depth rungs, five outputs and all kernels: was the table read?";
+      << "three depth rungs, five outputs and all kernels: were they declared?";
 
   // In groups, since starting the compiler costs more than its work; a failing group is repeated one by one.
   constexpr std::size_t kGroup = 100;
@@ -135,6 +137,47 @@ TEST(ShaderVariants, TheReferenceCompilerIsReallyAsked) {
   EXPECT_EQ(compilerOutput(scratch.path(), {"good.frag"}), "");
   EXPECT_NE(compilerOutput(scratch.path(), {"bad.frag"}), "") << "ES has no implicit int to float";
   EXPECT_NE(compilerOutput(scratch.path(), {"good.frag", "bad.frag"}), "");
+}
+
+TEST(ShaderVariants, OutsideAFamilyAreRefusedByName) {
+  const device::ShaderFamily family{"a.vert",
+                                    "a.frag",
+                                    {{{{"HS_SIZE 2"}}, {{"HS_TAPS(T) *"}}},
+                                     {{}, {{"HS_LOOP"}, {"HS_SIZE"}}},
+                                     {{.needs = {"!HS_NO_HIGHP"}}, {{"HS_PACKED"}}}}};
+  const auto reason = [&](const std::vector<std::string>& defines, const std::vector<std::string>& context) {
+    return device::refusal(family, defines, context);
+  };
+  EXPECT_EQ(reason({"HS_SIZE 2"}, {}), "");
+  EXPECT_EQ(reason({"HS_LOOP", "HS_PACKED", "HS_SIZE 2"}, {"HS_NO_HIGHP"}), "");
+  EXPECT_EQ(reason({"HS_TAPS(T) T(0.1) T(0.2)"}, {}), "");
+  EXPECT_EQ(reason({"HS_SIZE 3"}, {}), "HS_SIZE 3 is no choice that is declared");
+  EXPECT_EQ(reason({"HS_SIZE 2", "HS_OTHER 1"}, {}), "HS_OTHER 1 is not declared");
+  EXPECT_EQ(reason({}, {}), "nothing is chosen of the axis of HS_SIZE 2");
+  EXPECT_EQ(reason({"HS_TAPS(T) T(0.1)", "HS_LOOP"}, {}), "HS_LOOP needs HS_SIZE");
+  EXPECT_EQ(reason({"HS_SIZE 2"}, {"HS_NO_HIGHP"}), "a variant without HS_PACKED needs !HS_NO_HIGHP");
+  const Status unknown = device::checkVariant({&family, 1}, {"a.vert", "b.frag", {}}, {});
+  ASSERT_FALSE(unknown.ok());
+  EXPECT_EQ(unknown.error().code, ErrorCode::internal);
+  EXPECT_NE(unknown.error().message.find("a.vert + b.frag"), std::string::npos);
+}
+
+TEST(ShaderVariants, FewHoldEveryPairOfChoices) {
+  const device::ShaderAxis three = {{}, {{"HS_A"}}, {{"HS_B"}}};
+  const std::vector<ShaderVariant> variants = compiledVariants(
+      {"a.vert", "a.frag", {three, {{}, {{"HS_C"}}, {{"HS_D"}, {}, false}}, {{}, {{"HS_E"}, {"HS_A"}}}}});
+  EXPECT_LT(variants.size(), 16u) << "of 32";
+  const auto has = [&](std::initializer_list<std::string> pair) {
+    return std::ranges::any_of(variants, [&](const ShaderVariant& variant) {
+      return std::ranges::all_of(pair, [&](const std::string& define) {
+        return std::ranges::find(variant.defines, define) != variant.defines.end();
+      });
+    });
+  };
+  EXPECT_TRUE(has({"HS_A", "HS_C"}) && has({"HS_B", "HS_C"}) && has({"HS_A", "HS_E"}) &&
+              has({"HS_C", "HS_E"}));
+  EXPECT_FALSE(has({"HS_B", "HS_E"})) << "excluded";
+  EXPECT_FALSE(has({"HS_D"})) << "not for compiling";
 }
 
 }  // namespace

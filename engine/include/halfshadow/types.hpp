@@ -187,7 +187,7 @@ struct SettingRecord {
   const char* type = "";  ///< "integer", "real" or "choice"
   const char* defaultValue = "";
   const char* value = "";
-  const char* allowed = "";  ///< "2 … 17" or "grid, poisson"
+  const char* allowed = "";  ///< "2 to 17" or "grid, poisson"
   const char* text = "";
 };
 

@@ -14,6 +14,7 @@
 #include "techniques/core/light_scene.hpp"
 #include "techniques/core/pass_plan.hpp"
 #include "techniques/core/settings.hpp"
+#include "techniques/core/shader_families.hpp"
 
 namespace halfshadow::techniques {
 
@@ -39,6 +40,9 @@ class Technique {
     (void)capabilities;
     return {};
   }
+  /// Of all programs that its planners may ask for; others are refused. Those that several techniques declare
+  /// alike count once.
+  virtual std::vector<ShaderFamily> shaderFamilies() const { return {}; }
   /// Asked each frame before planning, about geometry alone. Lights whose visibility a host evaluates itself
   /// keep their technique, since a stand-in may work on the screen only.
   virtual std::optional<StandIn> standIn(const LightScene& scene) const {

@@ -230,12 +230,10 @@ Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const Receiv
   defines.push_back("HS_FORWARD");
   if (shading.usesFacetPlane && needsFacetStream(programs.capabilities()))
     defines.push_back("HS_FACET_NORMAL");
-  auto vertex = programs.assemble("receiver/forward.vert", defines);
-  if (!vertex) return vertex.error();
-  auto fragment = programs.assemble(shading.fragmentFile, defines);
-  if (!fragment) return fragment.error();
+  auto sources = programs.assemble({"receiver/forward.vert", shading.fragmentFile, std::move(defines)});
+  if (!sources) return sources.error();
   const auto withoutVersion = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
-  return ForwardTexts{withoutVersion(*vertex), withoutVersion(*fragment)};
+  return ForwardTexts{withoutVersion(sources->vertex), withoutVersion(sources->fragment)};
 }
 
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,

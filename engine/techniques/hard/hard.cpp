@@ -3,6 +3,7 @@
 #include "techniques/hard/hard.hpp"
 
 #include "techniques/parts/maps/light_depth.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -15,6 +16,9 @@ class Hard final : public Technique {
                                     .guarantees = "visibility is 0 or 1; no acne on closed casters at bias 1",
                                     .knownFailures = "no penumbra; edges are as coarse as the map's texels"};
     return info;
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return mapReceiverFamilies("map/hard.frag", {});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

@@ -14,6 +14,9 @@ class None final : public Technique {
                                     .knownFailures = "every shadow is missing"};
     return info;
   }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return receiverFamilies("receiver/none.frag", {});
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "techniques/core/caster_spread.hpp"
+#include "techniques/occlusion_textures/occlusion_shaders.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
 
 namespace halfshadow::techniques {
@@ -146,6 +147,7 @@ class OcclusionTextures final : public Technique {
     if (readChoices(scene.settings).paper()) return std::nullopt;
     return sampledWhereCastersSpread(scene, kWidestSpread);
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return occlusionShaders(kMostBoxes); }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

@@ -4,6 +4,7 @@
 
 #include "techniques/parts/maps/edge_mask.hpp"
 #include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 #include "techniques/parts/maps/poisson_disc.hpp"
 
 namespace halfshadow::techniques {
@@ -58,6 +59,21 @@ ReceiverShading kernelShading(const LightScene& scene, PassPlan& plan, const Lig
   return shading;
 }
 
+/// The grid, or a disc whose points are text.
+ShaderAxis kernelAxis() {
+  const std::vector<SettingInfo> settings = kernelSettings("");
+  ShaderAxis axis = range("HS_KERNEL", settings[0], {2, 7, 17});
+  for (const device::ShaderChoice& count : range("HS_POISSON_COUNT", settings[2], {})) {
+    axis.push_back({{count.defines[0], "HS_POISSON_TAPS(TAP) *"}, {}, false});
+    axis.push_back(axis.back());
+    axis.back().defines.emplace_back("HS_ROTATE");
+  }
+  const std::vector<std::string> disc = {"HS_POISSON_COUNT 16", poissonTapsDefine(16)};
+  axis.push_back({disc});
+  axis.push_back({{disc[0], disc[1], "HS_ROTATE"}});
+  return axis;
+}
+
 class Pcf final : public Technique {
  public:
   const TechniqueInfo& info() const override {
@@ -70,6 +86,9 @@ class Pcf final : public Technique {
     return info;
   }
   std::vector<SettingInfo> settings() const override { return kernelSettings("pcf"); }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return mapReceiverFamilies("map/pcf.frag", {kernelAxis()});
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
@@ -111,6 +130,13 @@ class PcfMasked final : public Technique {
          {"branch", "loop", "stencil", "auto"},
          "how unfiltered pixels skip the taps; auto: what the device profile measured as fastest"});
     return settings;
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return mapReceiverFamilies(
+        "map/pcf_masked.frag",
+        {kernelAxis(), flag("HS_MASK_EDGES"),
+         flag("HS_SKIP_LOOP", {"HS_KERNEL", "!HS_PHASE_CLASSIFY", "!HS_PHASE_FILTER"})},
+        {.twoDraws = true});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

@@ -9,6 +9,7 @@
 
 #include "techniques/parts/maps/edge_mask.hpp"
 #include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 #include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
@@ -68,6 +69,14 @@ class PcfQuantized final : public Technique {
     // The paper's bands are far from the truth in any case.
     if (scene.settings.choice("pcf-quantized.preset") == "paper") return std::nullopt;
     return standInForOneView(scene);
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return joined(
+        {mapReceiverFamilies("map/pcf_quantized.frag",
+                             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_SEARCH 5"}}}, castingAxis()},
+                             {.twoDraws = true}),
+         mapReceiverFamilies("map/pcf_quantized_paper.frag",
+                             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_LIT_OUTSIDE"}}}})});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

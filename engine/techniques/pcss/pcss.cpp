@@ -3,6 +3,7 @@
 #include "techniques/pcss/pcss.hpp"
 
 #include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 #include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
@@ -24,6 +25,12 @@ class Pcss final : public Technique {
             {"pcss.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return mapReceiverFamilies(
+        "map/pcss.frag",
+        {range("HS_SEARCH", settings()[0], {3, 9}), range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17})},
+        {.twoDraws = true});
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

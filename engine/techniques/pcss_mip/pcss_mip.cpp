@@ -3,6 +3,7 @@
 #include "techniques/pcss_mip/pcss_mip.hpp"
 
 #include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 #include "techniques/parts/maps/one_view.hpp"
 
 namespace halfshadow::techniques {
@@ -24,6 +25,12 @@ class PcssMip final : public Technique {
     return {{"pcss-mip.size", SettingType::integer, "7", 2, 17, {}, "taps per side of the filter"}};
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return mapReceiverFamilies(
+        "map/pcss_mip.frag",
+        {range("HS_SPREAD_KERNEL", settings()[0], {2, 9, 17}), {{{"HS_SEARCH 5"}}}, castingAxis()},
+        {.twoDraws = true});
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/registry/registry.hpp"
 
+#include <algorithm>
+
 #include "techniques/hard/hard.hpp"
 #include "techniques/none/none.hpp"
 #include "techniques/occlusion_textures/occlusion_textures.hpp"
@@ -35,6 +37,19 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
     for (SettingInfo& info : technique->settings()) settings.push_back(std::move(info));
   }
   return settings;
+}
+
+std::vector<ShaderFamily> allShaderFamilies(const std::vector<std::unique_ptr<Technique>>& techniques) {
+  // What several lights left on the screen is shaded for all techniques alike.
+  std::vector<ShaderFamily> families = {{"receiver/receiver.vert",
+                                         "receiver/shade_lights.frag",
+                                         {{{{"HS_SHADED"}}, {{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}}}}};
+  for (const auto& technique : techniques) {
+    for (ShaderFamily& family : technique->shaderFamilies()) {
+      if (std::ranges::find(families, family) == families.end()) families.push_back(std::move(family));
+    }
+  }
+  return families;
 }
 
 }  // namespace halfshadow::techniques

@@ -13,4 +13,7 @@ std::vector<std::unique_ptr<Technique>> makeAllTechniques();
 /// Settings that hold for every technique, then each technique's own.
 std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique>>& techniques);
 
+/// All shader variants that may be asked for.
+std::vector<ShaderFamily> allShaderFamilies(const std::vector<std::unique_ptr<Technique>>& techniques);
+
 }  // namespace halfshadow::techniques

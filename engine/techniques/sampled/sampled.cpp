@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "techniques/parts/maps/light_depth.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -39,6 +40,10 @@ class Sampled final : public Technique {
              1000,
              {},
              "points of the light, one depth map each"}};
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return joined({mapReceiverFamilies("map/hard.frag", {{{{"HS_COUNT_SHADOWED"}}}}),
+                   receiverFamilies("screen/screen_counts.frag", {.forward = false})});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

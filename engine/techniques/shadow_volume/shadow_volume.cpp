@@ -39,6 +39,10 @@ class ShadowVolume final : public Technique {
              "needs no packed-depth-stencil; auto = stencil where it exists"}};
   }
 
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return joined({{{"volume/volume.vert", "volume/volume.frag"}, fullscreen("volume/volume.frag")},
+                   receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

@@ -8,6 +8,7 @@
 #include "base/keys.hpp"
 #include "techniques/core/caster_spread.hpp"
 #include "techniques/parts/maps/light_blocks.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 #include "techniques/shadow_width/attenuation.hpp"
 #include "techniques/shadow_width/paper_width.hpp"
 #include "techniques/shadow_width/signed_width.hpp"
@@ -115,6 +116,23 @@ class ShadowWidth final : public Technique {
         "sampled",
         "caster-behind-receiver: a caster lies behind a receiver that casts nothing, and silhouettes "
         "seen from the light do not tell that it shadows others only"};
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return joined(
+        {{fullscreen("width/width_occlusion.frag", {depthAxis(), flag("HS_FARTHEST")}),
+          fullscreen("width/width_minimum.frag", {values("HS_NEIGHBOURS", {3, 6})}),
+          fullscreen("width/width_coverage.frag",
+                     {depthAxis(), range("HS_SAMPLES_S", 1, 16, {1, 4, 16}),
+                      range("HS_SAMPLES_T", 1, 16, {1, 4, 16}), flag("HS_LAST_RECEIVERS")}),
+          fullscreen("width/width_seed.frag"), fullscreen("width/width_flood.frag"),
+          fullscreen("width/width_box.frag"), fullscreen("width/width_tile.frag"),
+          fullscreen("width/width_finish.frag")},
+         mapReceiverFamilies("width/shadow_width.frag", {{{},
+                                                          {{"HS_CORNERS"}},
+                                                          {{"HS_POINT_LIGHT"}},
+                                                          {{"HS_PAPER"}},
+                                                          {{"HS_PAPER", "HS_ATTENUATION_TEXTURE"}}},
+                                                         castingAxis({"!HS_PAPER", "!HS_POINT_LIGHT"})})});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

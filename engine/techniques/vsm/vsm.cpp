@@ -9,6 +9,7 @@
 #include "techniques/parts/maps/filter_pass.hpp"
 #include "techniques/parts/maps/interiors.hpp"
 #include "techniques/parts/maps/light_depth.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -49,6 +50,12 @@ class Vsm final : public Technique {
   std::optional<StandIn> standIn(const LightScene& scene) const override {
     if (auto spread = sampledWhereCastersSpread(scene, kWidestSpread)) return spread;
     return standInForInteriors(scene);
+  }
+  std::vector<ShaderFamily> shaderFamilies() const override {
+    return joined({{fullscreen("map/vsm_moments.frag", {depthAxis(), flag("HS_MOMENTS_8")}),
+                    fullscreen("map/vsm_blur.frag",
+                               {range("HS_KERNEL", settings()[0], {1, 3, 9, 33}), flag("HS_MOMENTS_8")})},
+                   mapReceiverFamilies("map/vsm.frag", {flag("HS_MOMENTS_8"), {{{"HS_LIT_OUTSIDE"}}}})});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

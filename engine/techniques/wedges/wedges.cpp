@@ -5,6 +5,7 @@
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
+#include "techniques/parts/wedges/wedge_shaders.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -147,6 +148,7 @@ class AdditiveWedges final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
   std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
@@ -168,6 +170,7 @@ class ProbabilisticWedges final : public Technique {
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<ProbabilisticPlanner>();
   }

@@ -8,6 +8,7 @@
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
+#include "techniques/wedges_blended/vbuffer_shaders.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
 
 namespace halfshadow::techniques {
@@ -90,6 +91,7 @@ class WedgesBlended final : public Technique {
          {},
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

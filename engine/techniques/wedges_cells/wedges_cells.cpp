@@ -4,6 +4,7 @@
 
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
+#include "techniques/wedges_cells/cell_shaders.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
 
 namespace halfshadow::techniques {
@@ -74,6 +75,7 @@ class WedgesCells final : public Technique {
          {},
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
+  std::vector<ShaderFamily> shaderFamilies() const override { return cellShaders(); }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

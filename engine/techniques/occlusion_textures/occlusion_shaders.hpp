@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// Variants of the shaders of occlusion textures.
+#pragma once
+
+#include "techniques/core/shader_families.hpp"
+
+namespace halfshadow::techniques {
+
+/// At most 16 slices: two a texture where they have depths, else four.
+inline ShaderAxis slotsAxis() {
+  ShaderAxis axis;
+  for (const int each : {2, 4}) {
+    for (int textures = 1; textures * each <= 16; ++textures) {
+      axis.push_back(
+          {{"HS_TEXTURES " + std::to_string(textures), "HS_SLOTS " + std::to_string(textures * each)},
+           {each == 2 ? "HS_SLICE_DEPTH" : "!HS_SLICE_DEPTH"},
+           textures == 1 || textures == 2 || textures * each == 16});
+    }
+  }
+  return axis;
+}
+
+inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
+  const std::vector<std::string> nearest = {"HS_SLICE_DEPTH"};
+  return joined(
+      {{{"occlusion/occlusion_slices.vert",
+         "occlusion/occlusion_slices.frag",
+         {{{}, {{"HS_PACK_DEPTH"}}, {{"HS_SLICE_DEPTH"}}, {{"HS_SLICE_DEPTH", "HS_LAST_RECEIVERS"}}}}},
+        fullscreen("occlusion/occlusion_level.frag", {flag("HS_FIRST_LEVEL")}),
+        fullscreen("occlusion/occlusion_sum.frag", {flag("HS_FIRST_STEP")}),
+        fullscreen("map/pyramid_copy.frag")},
+       receiverFamilies("occlusion/occlusion_textures.frag", {},
+                        {slotsAxis(),
+                         range("HS_BOXES", 1, mostBoxes, {1, mostBoxes}),
+                         {{{"HS_FILTER_NBUFFER"}},
+                          {{"HS_FILTER_MIPMAP"}},
+                          {{"HS_FILTER_SAT"}, {"!HS_SLICE_DEPTH"}},
+                          {{"HS_FILTER_SAT", "HS_SAT_SMOOTH"}, nearest}},
+                         {{{"HS_COMBINE_SUM"}}, {{"HS_COMBINE_PRODUCT"}}, {{"HS_COMBINE_MAX"}}},
+                         flag("HS_SLICE_DEPTH"),
+                         flag("HS_CONCENTRIC"),
+                         castingAxis(nearest),
+                         flag("HS_LAST_RECEIVERS", nearest)})});
+}
+
+}  // namespace halfshadow::techniques
