@@ -9,8 +9,8 @@
 #include <set>
 
 #include "plan_rig.hpp"
-#include "techniques/registry/registry.hpp"
 #include "scenes/builtin_scenes.hpp"
+#include "techniques/registry/registry.hpp"
 
 namespace halfshadow::test {
 namespace {
