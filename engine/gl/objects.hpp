@@ -67,7 +67,6 @@ class Texture {
   /// Replaces a rectangle of level 0. Unpack alignment is handled.
   void update(Context& context, int x, int y, int width, int height, const void* pixels);
   void generateMipmaps(Context& context);
-  void setFilter(Context& context, TextureFilter filter);
   /// Leaves the texture bound to a unit, which becomes the active one: for a host's own draws.
   void bind(Context& context, int unit) const;
   std::uint32_t name() const { return wrapped_ ? wrapped_ : object_.name(); }

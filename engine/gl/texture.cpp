@@ -150,16 +150,6 @@ void Texture::generateMipmaps(Context& context) {
   context.functions().generateMipmap(GL_TEXTURE_2D);
 }
 
-void Texture::setFilter(Context& context, TextureFilter filter) {
-  if (context.lost() || !*this || desc_.filter == filter) return;
-  const Functions& gl = context.functions();
-  context.noteBindingsChanged();
-  gl.bindTexture(GL_TEXTURE_2D, name());
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minFilterOf(filter));
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magFilterOf(filter));
-  desc_.filter = filter;
-}
-
 std::size_t Texture::byteCount() const {
   std::size_t texels = 0;
   int width = desc_.width, height = desc_.height;

@@ -110,10 +110,6 @@ std::string_view skipText(SkipReason reason) {
 
 // Based on: Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", section 4 (the
 // finaliser's constants); the seed is mixed first, so that the order of values matters.
-void FramePlanner::reset() {
-  history_.clear();
-}
-
 FramePlanner::Revisions FramePlanner::revisionsOf(const FrameInput& input) {
   Revisions revisions{kKeySeed, kKeySeed};
   for (const PlannedObject& object : input.objects) {

@@ -89,7 +89,6 @@ struct FramePlan {
 class FramePlanner {
  public:
   FramePlan plan(const FrameInput& input);
-  void reset();
 
  private:
   struct LightHistory {

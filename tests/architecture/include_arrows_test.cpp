@@ -50,7 +50,6 @@ TEST(IncludeArrows, EngineModulesKnowOnlyWhatLiesBelowThem) {
   // In an order in which each names only earlier ones, so that there can be no cycle.
   const std::vector<std::pair<std::string, Names>> kMayInclude = {
       {"base", {}},
-      {"coverage", {"base"}},
       {"device", {"base"}},
       {"scene", {"base"}},
       {"outlines", {"base", "scene"}},

@@ -212,15 +212,6 @@ TEST(FramePlanner, SeveralLightsAreNamed) {
   EXPECT_TRUE(hasSkip(plan, "caster 12 for light 1", SkipReason::behindLight));
 }
 
-TEST(FramePlanner, ResetForgets) {
-  World world;
-  world.lookAtAll();
-  FramePlanner planner;
-  (void)world.plan(planner);
-  planner.reset();
-  EXPECT_FALSE(hasSkip(world.plan(planner), "light 0", SkipReason::unchanged));
-}
-
 TEST(FramePlanner, SkipCodesAreDistinct) {
   std::set<std::string_view> codes;
   int count = 0;

@@ -32,6 +32,7 @@ PlanRig::PlanRig(const scene::SceneDescription& scene, device::Capabilities capa
   for (const scene::SceneObject& source : scene.objects) {
     objects_.push_back(std::make_unique<Object>());
     objects_.back()->source = source;
+    objects_.back()->id = objects_.size();
     objects_.back()->revision = ++lastRevision_;
   }
   const scene::Camera& camera = *scene.camera;
@@ -55,7 +56,8 @@ void PlanRig::moveCaster() {
 
 techniques::DrawItem PlanRig::itemOf(const Object& object) const {
   const scene::TriangleMesh& mesh = *object.source.mesh;
-  return {.mesh = reinterpret_cast<const techniques::GpuMesh*>(&object),  // its address tells meshes apart
+  return {.object = object.id,
+          .mesh = reinterpret_cast<const techniques::GpuMesh*>(&object),  // its address tells meshes apart
           .casts = object.source.casts,
           .receives = object.source.receives,
           .worldFromObject = object.source.worldFromObject,

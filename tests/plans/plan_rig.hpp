@@ -39,6 +39,7 @@ class PlanRig {
 
  private:
   struct Object {
+    std::uint64_t id = 0;
     scene::SceneObject source;
     scene::CasterGeometry geometry;
     std::uint64_t revision = 0;

@@ -128,9 +128,4 @@ std::string Settings::text(std::string_view key) const {
   return valueOf(key);
 }
 
-bool Settings::isDefault(std::string_view key) const {
-  const auto info = std::ranges::find(declared_, key, &SettingInfo::key);
-  return info != declared_.end() && info->defaultValue == valueOf(key);
-}
-
 }  // namespace halfshadow::techniques

@@ -38,7 +38,6 @@ class Settings {
   int integer(std::string_view key) const;
   double real(std::string_view key) const;
   const std::string& choice(std::string_view key) const;
-  bool isDefault(std::string_view key) const;
   std::string text(std::string_view key) const;
   std::span<const SettingInfo> declared() const { return declared_; }
   /// Changes whenever a value does: part of content keys.
