@@ -20,6 +20,9 @@ namespace halfshadow::techniques {
 
 class GpuMesh;
 
+/// Streams of a GpuMesh.
+enum class MeshStreams { positions, facet, shading };
+
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
   std::uint64_t object = 0;  ///< its id in the scene

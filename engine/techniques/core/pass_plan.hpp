@@ -24,9 +24,6 @@ namespace halfshadow::techniques {
 /// A triangle over the whole viewport.
 struct FullscreenDraw {};
 
-/// Streams of a GpuMesh.
-enum class MeshStreams { positions, facet, shading };
-
 /// Objects by their own meshes.
 struct MeshDraw {
   std::span<const DrawItem> items;  ///< live until the frame ends; see PassPlan::keep()
@@ -141,6 +138,13 @@ struct PassPlan {
  private:
   std::vector<std::unique_ptr<std::vector<DrawItem>>> kept_;
 };
+
+/// Bytes of a stream of vertices or indices.
+template <typename T>
+std::shared_ptr<const std::vector<std::byte>> streamBytes(const std::vector<T>& stream) {
+  const auto bytes = std::as_bytes(std::span<const T>(stream));
+  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
+}
 
 /// Setting filter_skip: the device profile's choice.
 FilterSkip preferredSkip(const LightScene& scene);

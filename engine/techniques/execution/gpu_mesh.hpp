@@ -21,7 +21,7 @@ namespace halfshadow::techniques {
 /// 65,536 vertices are split into ranges where 32-bit indices are missing.
 class GpuMesh {
  public:
-  enum class Streams { positions, facet, shading };
+  using Streams = MeshStreams;
 
   static Result<GpuMesh> create(gl::Context& context, const scene::TriangleMesh& mesh);
   /// Replaces positions and normals (same topology): animated casters. Errors: outOfMemory, invalidArgument.

@@ -46,18 +46,6 @@ gl::Cull culledFaces(const MeshDraw& meshes, const DrawItem& item) {
   return meshes.faces == MeshDraw::Faces::turned ? turnedRound(hidden) : hidden;
 }
 
-GpuMesh::Streams streamsOf(MeshStreams streams) {
-  switch (streams) {
-    case MeshStreams::positions:
-      return GpuMesh::Streams::positions;
-    case MeshStreams::facet:
-      return GpuMesh::Streams::facet;
-    case MeshStreams::shading:
-      return GpuMesh::Streams::shading;
-  }
-  return GpuMesh::Streams::positions;
-}
-
 /// Draws over the viewport what `draw` says of the image as the CPU changed it. Without memory for the copy
 /// the target stays as it was cleared.
 void drawReadBack(framegraph::PassContext& context, gl::Program& program, const gl::Texture& image,
@@ -281,7 +269,7 @@ void LightPasses::drawMeshes(gl::Encoder& encoder, gl::Program& program, const P
     state.cull = culledFaces(meshes, item);
     program.set(encoder.context(), meshes.clipFromObject,
                 glm::mat4(meshes.clipFromWorld * item.worldFromObject));
-    item.mesh->draw(encoder, state, streamsOf(meshes.streams));
+    item.mesh->draw(encoder, state, meshes.streams);
   }
 }
 
@@ -298,16 +286,6 @@ void LightPasses::drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw,
                             .indexType = triangles.indexType,
                             .first = triangles.first,
                             .count = triangles.count});
-}
-
-std::uint64_t LightPasses::memoryBytes() const {
-  std::uint64_t bytes = 0;
-  for (const auto& [name, own] : textures_) {
-    const gl::TextureDesc& desc = own.texture.desc();
-    bytes += static_cast<std::uint64_t>(desc.width) * desc.height * gl::bytesPerTexel(desc.format);
-  }
-  for (const auto& [id, own] : buffers_) bytes += own.buffer.byteCount();
-  return bytes;
 }
 
 }  // namespace halfshadow::techniques

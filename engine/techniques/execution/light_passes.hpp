@@ -56,7 +56,6 @@ class LightPasses {
   Status upload(Device& device);
   /// Adds images and passes; they refer to this and to the view until the frame ends.
   ReceiverShading declare(FramePasses& frame) const;
-  std::uint64_t memoryBytes() const;  ///< of textures and buffers of its own
 
  private:
   struct OwnTexture {

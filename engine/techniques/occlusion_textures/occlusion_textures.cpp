@@ -162,8 +162,8 @@ class OcclusionPlanner final : public LightPlanner {
     }
     if (Status s = findSpace(scene, choices.slicing); !s) return s;
     for (const int empty : space_->emptySlices) {
-      plan.notes.push_back({scene.name + " occlusion slice " + std::to_string(empty + 1),
-                            "no caster lies between its borders"});
+      plan.note(scene.name + " occlusion slice " + std::to_string(empty + 1),
+                "no caster lies between its borders");
     }
     const SliceContent content = choices.paper() ? SliceContent::everything : SliceContent::nearestFaces;
     const SliceTextures slices = planSlices(scene, plan, *space_, content, choices.filter);

@@ -14,9 +14,6 @@ namespace halfshadow::techniques {
 namespace {
 using framegraph::ResourceId;
 
-/// Clip depth over w: behind everything, and not beyond the far plane by rounding.
-constexpr double kAlmostInfinite = 1.0 - 1e-6;
-
 /// Borders of the slices in a texture's channels; a channel without slice has an empty interval.
 struct ChannelBorders {
   glm::vec4 low{2.0f}, high{-1.0f};
@@ -101,8 +98,7 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
   draw.what = facing(space, plan.keep(std::move(last.drawn)));
   pass.draws.push_back(draw);
   SliceSpace flat = space;
-  for (int column = 0; column < 4; ++column)
-    flat.clipFromWorld[column][2] = kAlmostInfinite * flat.clipFromWorld[column][3];
+  flat.clipFromWorld = almostInfinitelyFar(flat.clipFromWorld);
   draw.what = facing(flat, plan.keep(std::move(last.infinite)));
   pass.draws.push_back(std::move(draw));
   plan.passes.push_back(std::move(pass));

@@ -9,23 +9,17 @@
 namespace halfshadow::techniques {
 namespace {
 constexpr std::uint32_t kShortIndexVertices = 65536;
-
-template <typename T>
-std::shared_ptr<const std::vector<std::byte>> bytesOf(const std::vector<T>& values) {
-  const auto bytes = std::as_bytes(std::span<const T>(values));
-  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
 }  // namespace
 
 void CachedVolume::fill(Streams& streams, const VolumeMesh& mesh) {
   streams.ranges = mesh.ranges;
   streams.made = true;
-  streams.vertices.bytes = bytesOf(mesh.vertices);
+  streams.vertices.bytes = streamBytes(mesh.vertices);
   const bool narrow = mesh.indices.empty() || *std::ranges::max_element(mesh.indices) < kShortIndexVertices;
   streams.indexType = narrow ? device::IndexType::uint16 : device::IndexType::uint32;
-  streams.indices.bytes = narrow
-                              ? bytesOf(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end()))
-                              : bytesOf(mesh.indices);
+  streams.indices.bytes =
+      narrow ? streamBytes(std::vector<std::uint16_t>(mesh.indices.begin(), mesh.indices.end()))
+             : streamBytes(mesh.indices);
 }
 
 void CachedVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSurface surface,

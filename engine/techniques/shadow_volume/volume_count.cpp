@@ -240,12 +240,12 @@ LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeV
   cache.endFrame();
   result.batches = batcher.take();
   if (uncapped > 0) {
-    plan.notes.push_back({scene.name + " caps of " + std::to_string(uncapped) + " shadow volumes",
-                          "no line from the light to the camera's near plane meets the caster"});
+    plan.note(scene.name + " caps of " + std::to_string(uncapped) + " shadow volumes",
+              "no line from the light to the camera's near plane meets the caster");
   }
   if (outOfView > 0) {
-    plan.notes.push_back({scene.name + ", " + std::to_string(outOfView) + " shadow volumes",
-                          "the caster's shadow lies outside of the camera's view"});
+    plan.note(scene.name + ", " + std::to_string(outOfView) + " shadow volumes",
+              "the caster's shadow lies outside of the camera's view");
   }
   return result;
 }

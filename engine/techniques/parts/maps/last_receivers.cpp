@@ -49,6 +49,13 @@ bool isLarge(const SeenBox& seen, const planner::LightFit& fit) {
 }
 }  // namespace
 
+glm::dmat4 almostInfinitelyFar(const glm::dmat4& clipFromWorld) {
+  constexpr double kDepthOverW = 1.0 - 1e-6;
+  glm::dmat4 flat = clipFromWorld;
+  for (int column = 0; column < 4; ++column) flat[column][2] = kDepthOverW * flat[column][3];
+  return flat;
+}
+
 LastReceivers lastReceivers(const LightScene& scene) {
   LastReceivers last;
   std::vector<SeenBox> seen;

@@ -24,6 +24,10 @@ struct LastReceivers {
   bool empty = true;
 };
 
+/// The projection with everything behind everything else, but not beyond the far plane by rounding: for
+/// LastReceivers::infinite.
+glm::dmat4 almostInfinitelyFar(const glm::dmat4& clipFromWorld);
+
 /// A caster that receives is drawn as it lies when it is an open surface, or when another caster in front of
 /// it is seen, from the light's centre, inside its box.
 LastReceivers lastReceivers(const LightScene& scene);

@@ -8,9 +8,6 @@
 
 namespace halfshadow::techniques {
 namespace {
-/// Clip depth over w: behind everything, and not beyond the far plane by rounding.
-constexpr double kAlmostInfinite = 1.0 - 1e-6;
-
 using framegraph::Attachment;
 using framegraph::AttachmentPoint;
 using framegraph::Format;
@@ -134,8 +131,7 @@ LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPl
   }
   if (!infinite.empty()) {
     MapSpace flat = depth.space;
-    for (int column = 0; column < 4; ++column)
-      flat.mapClipFromWorld[column][2] = kAlmostInfinite * flat.mapClipFromWorld[column][3];
+    flat.mapClipFromWorld = almostInfinitelyFar(flat.mapClipFromWorld);
     pass.draws.push_back(depthDraw(plan, flat, depth.storage, content, infinite));
     // The ramp repeats at depth 1.
     pass.draws.back().uniforms.set("u_depthOfDistance", glm::vec2(1.0f, 1e-3f));

@@ -49,11 +49,4 @@ class VolumeIndices {
   PlannedBuffer buffer_{.kind = PlannedBuffer::Kind::indices};
 };
 
-/// Bytes of a stream of vertices.
-template <typename T>
-std::shared_ptr<const std::vector<std::byte>> streamBytes(const std::vector<T>& stream) {
-  const auto bytes = std::as_bytes(std::span<const T>(stream));
-  return std::make_shared<const std::vector<std::byte>>(bytes.begin(), bytes.end());
-}
-
 }  // namespace halfshadow::techniques
