@@ -54,16 +54,6 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
   return techniques::ReceiverOutput::visibility;
 }
 
-/// Three points a triangle, in order: techniques read them as triangles. Each vertex is transformed once.
-void appendPoints(const EngineObject& object, std::vector<glm::dvec3>& points) {
-  std::vector<glm::dvec3> verticesWorld;
-  verticesWorld.reserve(object.mesh.positions.size());
-  for (const glm::vec3& position : object.mesh.positions) {
-    verticesWorld.push_back(glm::dvec3(object.worldFromObject * glm::dvec4(glm::dvec3(position), 1.0)));
-  }
-  for (const std::uint32_t index : object.mesh.indices) points.push_back(verticesWorld[index]);
-}
-
 framegraph::ClearValue clearColor(float r, float g, float b, float a) {
   return {.color = {r, g, b, a}};
 }
@@ -108,11 +98,14 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   target.casters.reserve(plan.casters.size());
   for (const std::uint32_t i : plan.casters) target.casters.push_back(api::drawItem(*sceneObjects[i]));
   if (cache.key != plan.contentKey || cache.mapSize != mapSize) {
-    cache.casterPointsWorld.clear();
-    for (const std::uint32_t i : plan.casters) appendPoints(*sceneObjects[i], cache.casterPointsWorld);
-    cache.light = planner::lightWithinReach(light, cache.casterPointsWorld);
-    cache.fit = planner::fitLight(cache.light, cache.casterPointsWorld,
-                                  {.mapSize = mapSize, .pointsAreTriangles = true});
+    cache.casterShapes.clear();
+    scene::Bounds castersWorld;
+    for (const std::uint32_t i : plan.casters) {
+      cache.casterShapes.push_back(sceneObjects[i]->shape());
+      castersWorld.include(sceneObjects[i]->shapeBoundsWorld());
+    }
+    cache.light = planner::lightWithinReach(light, castersWorld);
+    cache.fit = cache.fitter.fit(cache.light, cache.casterShapes, {.mapSize = mapSize});
     cache.key = plan.contentKey;
     cache.mapSize = mapSize;
     cache.reachKey = 0;
@@ -142,7 +135,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                                                 .casters = target.casters,
                                                 .contentKey = plan.contentKey,
                                                 .sceneKey = sceneKey}},
-                                     .casterPointsWorld = cache.casterPointsWorld,
+                                     .casterShapes = cache.casterShapes,
                                      .receiverFarDistance = receiverReach(cache, sceneObjects, sceneKey),
                                      .casters = target.casters,
                                      .groups = cache.groups,

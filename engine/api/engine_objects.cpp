@@ -69,18 +69,6 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
 }
 }  // namespace
 
-void EngineObject::place(const glm::dmat4& worldFromHostNow) {
-  worldFromHost = worldFromHostNow;
-  worldFromObject = glm::translate(worldFromHost, recenteredBy);
-  boundsWorld = scene::transformed(worldFromObject, boundsObject);
-  mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0;
-}
-
-const scene::SupportingPlanes& EngineObject::support() const {
-  if (!supportingPlanes) supportingPlanes = scene::supportingPlanesOf(mesh, recenteredBy);
-  return *supportingPlanes;
-}
-
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   State& state = *state_;
   id = 0;
@@ -153,8 +141,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   object.recenteredBy = scene::recenter(object.mesh);
   object.boundsObject = scene::boundsOf(object.mesh);
   object.place(object.worldFromHost);
-  object.geometry.positionsChanged();
-  object.supportingPlanes.reset();
+  object.positionsChanged();
   if (desc.normals && !object.mesh.normals.empty()) {
     for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
       object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);

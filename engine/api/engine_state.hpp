@@ -6,11 +6,11 @@
 
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/engine_object.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -18,51 +18,20 @@
 #include "gl/program.hpp"
 #include "halfshadow/halfshadow.hpp"
 #include "planner/frame_planner.hpp"
-#include "scene/bounds.hpp"
-#include "techniques/execution/gpu_mesh.hpp"
 #include "techniques/execution/light_passes.hpp"
 #include "techniques/execution/receiver_pass.hpp"
 #include "techniques/registry/registry.hpp"
 
 namespace halfshadow {
 
-/// A receiver of which a camera sees so little that only that is drawn (see scene::cutToView).
-struct CutReceiver {
-  std::uint64_t key = 0;  ///< of the object and the view; 0 = not asked for yet
-  bool needed = false;
-  scene::TriangleMesh mesh;
-  techniques::GpuMesh gpu;
-};
-
-struct EngineObject {
-  ObjectId id = 0;
-  scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
-  scene::CasterGeometry geometry;
-  techniques::GpuMesh gpu;
-  glm::dmat4 worldFromHost{1.0};    ///< as the host placed the positions that it gave
-  glm::dvec3 recenteredBy{0.0};     ///< what was taken off those
-  glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
-  scene::Bounds boundsObject, boundsWorld;
-  bool mirrored = false;
-  /// Sets worldFromObject and what follows from it; recenteredBy and boundsObject are set before.
-  void place(const glm::dmat4& worldFromHostNow);
-  /// Of the positions there are now; found on the first call.
-  const scene::SupportingPlanes& support() const;
-  bool casts = true, receives = true;
-  glm::vec4 baseColor{1.0f};
-  gl::Texture baseColorTexture;
-  std::uint64_t revision = 0;
-  mutable std::optional<scene::SupportingPlanes> supportingPlanes;  ///< see support()
-  mutable CutReceiver cutReceiver;                                  ///< of the last frame
-};
-
 /// What is kept of a light between frames.
 struct LightCache {
   std::uint64_t key = 0;
   int mapSize = 0;
-  std::vector<glm::dvec3> casterPointsWorld;
+  std::vector<planner::CasterShape> casterShapes;
   scene::CasterGroups groups;
   scene::AreaLight light;  ///< within reach of single precision
+  planner::LightFitter fitter;
   planner::LightFit fit;
   std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
   double receiverFarDistance = 0.0;

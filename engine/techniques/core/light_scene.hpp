@@ -45,7 +45,7 @@ struct LightScene {
   std::string name;  ///< "light 0": what names of images and passes begin with
   const scene::AreaLight& light;
   std::vector<LightView> views;  ///< at least one; the first is from its centre, of all its casters
-  std::span<const glm::dvec3> casterPointsWorld;  ///< what the views enclose, three a triangle
+  std::span<const planner::CasterShape> casterShapes;  ///< of `casters`: what the views enclose
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< of all views
   scene::CasterGroups& groups;        ///< of `casters`, kept between frames: see placedCasters()
