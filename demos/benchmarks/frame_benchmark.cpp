@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// CPU time and allocations of the engine per frame, by technique, number of boxes, and what changes. The
-/// target and the maps are tiny and nothing is drawn: the draw calls that the engine gets end here, once it
-/// has probed its context. What remains is planning, uploading and encoding, with the driver's share of all
-/// other calls.
+/// CPU time, allocations and OpenGL ES calls of the engine per frame, by technique, number of boxes, and what
+/// changes. The target and the maps are tiny and nothing is drawn: the draw calls that the engine gets end
+/// here, once it has probed its context. What remains is planning, uploading and encoding, with the driver's
+/// share of all other calls.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "egl/headless.hpp"
+#include "gl_calls.hpp"
 #include "halfshadow/halfshadow.hpp"
 
 namespace {
@@ -43,32 +44,10 @@ constexpr int kWidth = 32, kHeight = 24;
 constexpr double kSpacing = 1.0, kHalfSize = 0.2;
 constexpr int kWarmUpFrames = 6;  // programs are linked, and whatever moves counts as moving
 
-enum class Change { nothing, oneMover, light };
-
-using DrawArrays = void (*)(unsigned mode, int first, int count);
-using DrawElements = void (*)(unsigned mode, int count, unsigned type, const void* indices);
-DrawArrays driverDrawArrays = nullptr;
-DrawElements driverDrawElements = nullptr;
-bool draws = true;
-
-void drawArrays(unsigned mode, int first, int count) {
-  if (draws) driverDrawArrays(mode, first, count);
-}
-void drawElements(unsigned mode, int count, unsigned type, const void* indices) {
-  if (draws) driverDrawElements(mode, count, type, indices);
-}
+enum class Change { nothing, camera, oneMover, light };
 
 void* loadEntryPoint(const char* name, void* user) {
-  void* address = static_cast<HeadlessContext*>(user)->getProcAddress(name);
-  if (std::string_view(name) == "glDrawArrays") {
-    driverDrawArrays = reinterpret_cast<DrawArrays>(address);
-    return reinterpret_cast<void*>(&drawArrays);
-  }
-  if (std::string_view(name) == "glDrawElements") {
-    driverDrawElements = reinterpret_cast<DrawElements>(address);
-    return reinterpret_cast<void*>(&drawElements);
-  }
-  return address;
+  return benchmarks::countedEntryPoint(name, static_cast<HeadlessContext*>(user)->getProcAddress(name));
 }
 
 constexpr std::array<std::uint32_t, 36> kBoxIndices{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
@@ -96,12 +75,12 @@ class BoxField {
     std::unique_ptr<BoxField> field(new BoxField);
     field->context_ = std::move(context).value();
     Outcome outcome;
-    draws = true;
+    benchmarks::glDraws = true;
     field->engine_.reset(Engine::create({.getProcAddress = loadEntryPoint,
                                          .getProcAddressUser = field->context_.get(),
                                          .hostState = HostState::leaveDirty},
                                         outcome));
-    draws = false;
+    benchmarks::glDraws = false;
     if (outcome.ok()) outcome = field->fill(boxes);
     if (outcome.ok()) return field;
     error = outcome.message;
@@ -118,10 +97,10 @@ class BoxField {
   std::string renderNext(Change change) {
     ++frame_;
     const double step = 0.1 * std::sin(0.3 * frame_);
+    if (change == Change::camera) desc_.camera.eye[0] = step;
     if (change == Change::oneMover) moveFirstBox(step);
     if (change == Change::light) setLight(step);
-    FrameReport report;
-    const Outcome outcome = engine_->render(desc_, report);
+    const Outcome outcome = engine_->render(desc_);
     return outcome.ok() ? "" : outcome.message;
   }
 
@@ -194,19 +173,21 @@ void frame(benchmark::State& state, const char* technique, Change change) {
     state.SkipWithError(error.c_str());
     return;
   }
-  std::uint64_t allocated = 0;
+  std::uint64_t allocated = 0, calls = 0;
   for (auto unused : state) {
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations, callsBefore = benchmarks::glCalls;
     error = field->renderNext(change);
     allocated += allocations - before;
+    calls += benchmarks::glCalls - callsBefore;
     state.PauseTiming();  // what the driver still does must not run into the next frame's time
     field->finish();
     state.ResumeTiming();
     if (!error.empty()) break;
   }
   if (!error.empty()) state.SkipWithError(error.c_str());
-  state.counters["allocations"] =
-      static_cast<double>(allocated) / static_cast<double>(std::max<std::int64_t>(1, state.iterations()));
+  const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.iterations()));
+  state.counters["allocations"] = static_cast<double>(allocated) / frames;
+  state.counters["gl_calls"] = static_cast<double>(calls) / frames;
 }
 
 void registerAll() {
@@ -216,8 +197,10 @@ void registerAll() {
   };
   for (const char* technique :
        {"none", "hard", "pcss-mip", "shadow-width", "wedges-blended", "wedges-cells"}) {
-    for (const Named& what :
-         {Named{"unchanged", Change::nothing}, {"mover", Change::oneMover}, {"light", Change::light}}) {
+    for (const Named& what : {Named{"unchanged", Change::nothing},
+                              {"camera", Change::camera},
+                              {"mover", Change::oneMover},
+                              {"light", Change::light}}) {
       const std::string name = std::string(technique) + "/" + what.name;
       benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change)
           ->Arg(20)

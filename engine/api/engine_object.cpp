@@ -48,13 +48,9 @@ planner::CasterShape EngineObject::shape() const {
   return {.id = id,
           .revision = revision,
           .pointsWorld = pointsWorld_,
+          .boundsWorld = pointBoundsWorld_,
           .mesh = &mesh,
           .worldFromObject = &worldFromObject};
-}
-
-const scene::Bounds& EngineObject::shapeBoundsWorld() const {
-  placePoints();
-  return pointBoundsWorld_;
 }
 
 }  // namespace halfshadow

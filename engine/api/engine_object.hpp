@@ -49,8 +49,6 @@ struct EngineObject {
   const scene::SupportingPlanes& support() const;
   /// For fits; its points are found once for a mesh, and placed when it has moved.
   planner::CasterShape shape() const;
-  /// Around the points of shape(): tighter than boundsWorld.
-  const scene::Bounds& shapeBoundsWorld() const;
 
  private:
   void placePoints() const;

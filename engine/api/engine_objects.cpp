@@ -99,6 +99,8 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   id = state.nextId++;
   object.id = id;
   state.objects.emplace(id, std::move(object));
+  state.lists.listChanged();
+  ++state.changes;
   return {};
 }
 
@@ -110,7 +112,7 @@ Outcome Engine::setTransform(ObjectId id, const double worldFromObject[16]) {
   if (!transform) return state.fail(transform.error());
   if (found->second.worldFromHost == *transform) return {};
   found->second.place(*transform);
-  found->second.revision = state.nextRevision++;
+  state.changed(found->second);
   return {};
 }
 
@@ -156,7 +158,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   } else if (const Status updated = object.gpu.update(*state.context, object.mesh); !updated) {
     return state.fail(updated.error());
   }
-  object.revision = state.nextRevision++;
+  state.changed(object);
   return {};
 }
 
@@ -167,6 +169,8 @@ Outcome Engine::removeObject(ObjectId id) {
   gl::HostStateGuard guard(*state.context,
                            state.context->lost() ? gl::HostStatePolicy::leaveDirty : state.policy());
   state.objects.erase(found);
+  state.lists.listChanged();
+  ++state.changes;
   return {};
 }
 

@@ -4,6 +4,7 @@
 /// Everything behind the public Engine.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
 #include <string>
@@ -11,6 +12,8 @@
 #include <vector>
 
 #include "api/engine_object.hpp"
+#include "api/item_list.hpp"
+#include "api/scene_lists.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -28,7 +31,8 @@ namespace halfshadow {
 struct LightCache {
   std::uint64_t key = 0;
   int mapSize = 0;
-  std::vector<planner::CasterShape> casterShapes;
+  api::ItemList casters, shadowlessReceivers;
+  api::KeptList<planner::CasterShape> casterShapes;
   scene::CasterGroups groups;
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFitter fitter;
@@ -39,33 +43,40 @@ struct LightCache {
   std::unique_ptr<techniques::LightPasses> passes;
 };
 
-/// Strings and arrays that a FrameReport points to.
-struct ReportStorage {
-  std::uint64_t planKey = 0;  ///< of planText and planGraphviz
-  std::vector<framegraph::PassReport> passReports;
-  std::vector<framegraph::Graph::Skipped> skipped;
-  std::vector<PassRecord> passes;
-  std::vector<SkipRecord> skips;
-  std::string planText, planGraphviz;
-};
-
 struct FrameLight {
-  std::vector<techniques::DrawItem> casters;
-  std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
   techniques::ReceiverProgramSet programs;
 };
 
-/// Lives from declaration to execution of one frame.
+/// Lives from declaration to the next frame; the lists that it draws are the engine's.
 struct Frame {
+  RenderDesc desc;
   techniques::View view;
-  std::vector<techniques::DrawItem> receivers;
+  std::span<const techniques::DrawItem> receivers;
   std::vector<FrameLight> lights;
   framegraph::Graph graph;
   framegraph::ResourceId color;
   techniques::ShadingInputs shadingInputs;    ///< Output::shaded
   techniques::ReceiverShading screenShading;  ///< Output::shaded with several lights
   techniques::ReceiverProgramSet screenPrograms;
+
+  // What became of it.
+  framegraph::Plan plan;
+  std::vector<planner::Skip> skips;
+  std::vector<framegraph::PassReport> passReports;
+  gl::Counters counters;
+  bool unchanged = false;           ///< asked for again, it was drawn in part or not at all
+  std::uint64_t sceneRevision = 0;  ///< see State::sceneRevision
+  bool valid = false;               ///< it was drawn without an error
+};
+
+/// Strings and arrays that a FrameReport points to.
+struct ReportStorage {
+  std::vector<framegraph::Graph::Skipped> skipped;
+  std::vector<std::string> targets;
+  std::vector<PassRecord> passes;
+  std::vector<SkipRecord> skips;
+  std::string planText, planGraphviz;
 };
 
 struct Engine::State {
@@ -80,16 +91,22 @@ struct Engine::State {
   std::vector<std::string> techniqueReasons, settingTexts;
   techniques::Technique* technique = nullptr;
   std::map<ObjectId, EngineObject> objects;
+  api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;
   std::uint64_t nextRevision = 1;
   std::vector<scene::AreaLight> lights;
   std::vector<std::uint64_t> lightRevisions;
+  /// By which lights are named and known again, whatever their places: below kMaxLights, each once.
+  std::vector<std::uint32_t> lightNumbers;
   planner::FramePlanner planner;
-  std::vector<LightCache> lightCaches;
+  std::array<LightCache, kMaxLights> lightCaches;  ///< by number
+  api::ItemList receivers;
+  std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
+  std::vector<std::uint32_t> shadowless;
+  std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;
   std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
-  int outputWidth = 0, outputHeight = 0;
 
   techniques::ForwardTexts forwardTexts;
 
@@ -98,22 +115,37 @@ struct Engine::State {
   gl::HostStatePolicy policy() const;
   /// Null when there is none of that id.
   techniques::Technique* techniqueNamed(std::string_view id) const;
+  std::uint64_t sceneRevision() const { return changes + settings->revision(); }
+  LightCache& cacheOf(std::size_t light) { return lightCaches[lightNumbers[light]]; }
+  std::string nameOf(std::size_t light) const { return "light " + std::to_string(lightNumbers[light]); }
+  void setLights(std::vector<scene::AreaLight> checked);
+  /// Its mesh or its place is another.
+  void changed(EngineObject& object) {
+    object.revision = nextRevision++;
+    lists.objectChanged(object);
+    ++changes;
+  }
+
+  // One light's passes (engine_lights.cpp).
+  void fitLight(std::size_t light, const planner::LightPlan& plan);
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
-                      const planner::FramePlan& framePlan, const std::vector<const EngineObject*>& objects,
-                      const RenderDesc& desc);
+                      const planner::FramePlan& framePlan);
   /// Of the receivers in the light's fit; found again when the scene changed.
-  double receiverReach(LightCache& cache, const std::vector<const EngineObject*>& objects,
-                       std::uint64_t sceneKey) const;
+  double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
   /// Prepares, uploads and declares the light's passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index,
                                                 techniques::Technique& technique,
                                                 const techniques::LightScene& scene);
-  void declareVisibilityPass(Frame& frame, const RenderDesc& desc,
-                             std::vector<framegraph::Attachment> targets);
-  Status declareReceiverPasses(Frame& frame, const RenderDesc& desc);
-  Status renderFrame(const RenderDesc& desc, FrameReport& report);
-  void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned,
-                  const gl::Counters& counters, FrameReport& report);
+  // The frame (engine_frame.cpp).
+  void declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets);
+  Status declareReceiverPasses(Frame& frame);
+  Status checkFrame(const RenderDesc& desc, const scene::Camera& camera) const;
+  Status declareFrame(Frame& frame, const scene::Camera& camera);
+  /// The same as the last frame: what it left is as it was.
+  bool isUnchanged(const RenderDesc& desc) const;
+  /// Draws of an unchanged frame what only the host could have kept. False when that takes a whole frame.
+  Result<bool> drawUnchanged();
+  Status renderFrame(const RenderDesc& desc);
   std::uint64_t memoryBytes() const;
 };
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "planner/light_space.hpp"
+#include "scene/bounds.hpp"
 #include "scene/light.hpp"
 #include "scene/mesh.hpp"
 
@@ -57,6 +58,7 @@ struct CasterShape {
   std::uint64_t id = 0, revision = 0;  ///< `revision` changes with its mesh or place
   /// Their convex hull holds it: see scene::enclosingPoints().
   std::span<const glm::dvec3> pointsWorld;
+  scene::Bounds boundsWorld;  ///< of the points; fits do not read it
   /// Both, or none: then it is never casterNearLight.
   const scene::TriangleMesh* mesh = nullptr;
   const glm::dmat4* worldFromObject = nullptr;

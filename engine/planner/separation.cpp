@@ -38,11 +38,15 @@ bool isInside(const glm::dvec3& normal, const std::vector<glm::dvec3>& outline, 
 }
 }  // namespace
 
-Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
-    : input_(input),
-      light_(light),
-      lightCorners_(lightCornersRelative(light)),
-      bodies_(input.objects.size()) {
+void Separation::begin(const FrameInput& input, const scene::AreaLight& light, bool anew) {
+  input_ = &input;
+  light_ = &light;
+  lightCorners_ = lightCornersRelative(light);
+  if (anew) {
+    bodies_.clear();
+    bodies_.resize(input.objects.size());
+    byCamera_.clear();
+  }
   if (input.camera == nullptr) return;
   eye_ = input.camera->eyeWorld - light.centerWorld;
   const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(scene::viewFromWorld(*input.camera)));
@@ -57,10 +61,10 @@ Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
 const Separation::Body& Separation::body(std::uint32_t index) {
   std::optional<Body>& known = bodies_[index];
   if (known) return *known;
-  const PlannedObject& object = input_.objects[index];
+  const PlannedObject& object = input_->objects[index];
   Body& made = known.emplace();
   made.fromObject = object.worldFromObject;
-  made.fromObject[3] -= glm::dvec4(light_.centerWorld, 0.0);
+  made.fromObject[3] -= glm::dvec4(light_->centerWorld, 0.0);
   made.largestTranslation = glm::abs(glm::dvec3(object.worldFromObject[3]));
   const scene::Bounds& box = object.support->bounds;
   const auto corners = box.corners();
@@ -75,7 +79,7 @@ const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
   body(index);
   Body& shape = *bodies_[index];
   if (!shape.planes.empty()) return shape.planes;
-  const scene::SupportingPlanes& support = *input_.objects[index].support;
+  const scene::SupportingPlanes& support = *input_->objects[index].support;
   const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(shape.fromObject)));
   shape.planes.reserve(support.ofFaces.size() + 6);
   const auto add = [&](const scene::SupportingPlane& plane) {
@@ -105,7 +109,7 @@ const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
 double Separation::rounding(std::uint32_t index, const glm::dvec3& direction) {
   const Body& shape = body(index);
   const glm::dvec3 inObject = glm::abs(glm::transpose(glm::dmat3(shape.fromObject)) * direction);
-  return kFloat * (glm::dot(inObject, input_.objects[index].support->largestCoordinate) +
+  return kFloat * (glm::dot(inObject, input_->objects[index].support->largestCoordinate) +
                    glm::dot(glm::abs(direction), shape.largestTranslation)) +
          kDouble * glm::length(shape.center);
 }
@@ -119,7 +123,7 @@ bool Separation::reachesOnlyFrom(std::uint32_t index, const glm::dvec3& directio
     return true;
   }
   // The box is no help where the shape does not fill its corners: a tilted thing that stands on a ground.
-  const scene::TriangleMesh& mesh = *input_.objects[index].mesh;
+  const scene::TriangleMesh& mesh = *input_->objects[index].mesh;
   const glm::dvec3 inObject = glm::transpose(glm::dmat3(shape.fromObject)) * direction;
   const double leastInObject = least - glm::dot(direction, glm::dvec3(shape.fromObject[3]));
   return std::ranges::all_of(mesh.indices, [&](std::uint32_t vertex) {
@@ -135,7 +139,7 @@ bool Separation::enclosesLight(std::uint32_t index) {
 }
 
 bool Separation::shadowsItself(std::uint32_t index) {
-  const scene::SupportingPlanes& support = *input_.objects[index].support;
+  const scene::SupportingPlanes& support = *input_->objects[index].support;
   // The part of the light behind a flat receiver's own plane is not its own doing.
   if (support.planar) return false;
   if (!support.convex) return true;
@@ -145,13 +149,13 @@ bool Separation::shadowsItself(std::uint32_t index) {
   }
   if (enclosesLight(index)) return false;
   askedCamera_ = true;
-  return maySeeInside(input_, index);
+  return maySeeInside(*input_, index);
 }
 
 /// What of the receiver lies behind the plane is seen only through the plane's outline.
 bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver,
                                    double slack) {
-  if (plane.source == nullptr || plane.source->outline.empty() || input_.camera == nullptr) return false;
+  if (plane.source == nullptr || plane.source->outline.empty() || input_->camera == nullptr) return false;
   const Body& shape = body(receiver);
   const auto heightOf = [&](const glm::dvec3& point) { return glm::dot(plane.normal, point) - plane.offset; };
   // What does not come before the plane at all is another matter: hardly ever is it wholly hidden.
@@ -164,7 +168,7 @@ bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std
   // The part of a triangle behind is the hull of its corners there and of where its edges pass: so is its
   // image on the plane, seen from anywhere before it. Where they pass needs no camera.
   std::vector<glm::dvec3> behind;
-  const scene::TriangleMesh& mesh = *input_.objects[receiver].mesh;
+  const scene::TriangleMesh& mesh = *input_->objects[receiver].mesh;
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     std::array<glm::dvec3, 3> corners;
     std::array<double, 3> heights;
@@ -198,7 +202,7 @@ bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std
 
 /// With all of the near plane.
 bool Separation::eyeIsInside(std::uint32_t index) {
-  if (input_.camera == nullptr) return false;
+  if (input_->camera == nullptr) return false;
   askedCamera_ = true;
   return std::ranges::all_of(facePlanes(index), [&](const Plane& plane) {
     const double most = plane.offset - rounding(index, plane.normal);
@@ -216,7 +220,7 @@ bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
 }
 
 bool Separation::proves(std::uint32_t caster, std::uint32_t receiver) {
-  const PlannedObject &c = input_.objects[caster], &r = input_.objects[receiver];
+  const PlannedObject &c = input_->objects[caster], &r = input_->objects[receiver];
   if (c.support == nullptr || r.support == nullptr || c.mesh == nullptr || r.mesh == nullptr) return false;
   if (caster == receiver) return !shadowsItself(caster);
   for (const Plane& plane : planes(caster)) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/frame_planner.hpp"
@@ -30,7 +31,10 @@ namespace halfshadow::planner {
 /// proved anything of.
 class Separation {
  public:
-  Separation(const FrameInput& input, const scene::AreaLight& light);
+  /// For the questions of one frame. What is known of bodies stays, unless `anew`: the light or the list of
+  /// objects is another.
+  void begin(const FrameInput& input, const scene::AreaLight& light, bool anew);
+  void forget(std::uint32_t object) { bodies_[object].reset(); }
   /// Proved: no ray from a point of the receiver that can be seen to the light meets the caster.
   bool cannotShadow(std::uint32_t caster, std::uint32_t receiver);
   /// What the answers so far would have to be asked again for when the camera moves.
@@ -38,7 +42,8 @@ class Separation {
     std::uint32_t caster = 0, receiver = 0;
     bool cannotShadow = false;
   };
-  const std::vector<ByCamera>& byCamera() const { return byCamera_; }
+  std::vector<ByCamera> takeByCamera() { return std::exchange(byCamera_, {}); }
+  void keepByCamera(const ByCamera& answer) { byCamera_.push_back(answer); }
 
  private:
   struct Plane {
@@ -70,9 +75,9 @@ class Separation {
   bool enclosesLight(std::uint32_t object);
   bool eyeIsInside(std::uint32_t object);
 
-  const FrameInput& input_;
-  const scene::AreaLight& light_;
-  std::array<glm::dvec3, 4> lightCorners_;
+  const FrameInput* input_ = nullptr;  ///< of this frame, as the light
+  const scene::AreaLight* light_ = nullptr;
+  std::array<glm::dvec3, 4> lightCorners_{};
   glm::dvec3 eye_{0.0};  ///< relative to the light's centre, as are the near plane's corners
   std::array<glm::dvec3, 4> nearCorners_{};
   std::vector<std::optional<Body>> bodies_;

@@ -29,7 +29,7 @@ std::vector<glm::dvec3> convexPolygon(std::vector<glm::dvec3> points, const glm:
 
 /// Points whose convex hull holds every triangle of the mesh, object space: what bounds of it are found from
 /// wherever it is placed. They are the hull's own corners, with which bounds are those of the mesh itself;
-/// where these are many (a fine sphere), some two hundred that lie up to 3 % outside.
+/// where these are many (a fine sphere), some thousand that lie up to 1 % outside.
 std::vector<glm::dvec3> enclosingPoints(const TriangleMesh& mesh);
 /// The vertices that triangles use, each once: the same at no effort, for meshes that change.
 std::vector<glm::dvec3> usedVertices(const TriangleMesh& mesh);

@@ -10,9 +10,9 @@
 namespace halfshadow::scene {
 namespace {
 /// Up to so many corners the hull itself is taken: real models have a few hundred.
-constexpr std::size_t kMostCorners = 2048;
+constexpr std::size_t kMostCorners = 4096;
 /// Planes around a hull of more: their corners are twice as many.
-constexpr int kPlanes = 128;
+constexpr int kPlanes = 512;
 /// Rounding of corners that are where three planes meet, of their distance from the middle.
 constexpr double kRounding = 1e-9;
 
