@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/light_space.hpp"
 #include "planner/skips.hpp"
 #include "scene/bounds.hpp"
 #include "scene/camera.hpp"
@@ -114,6 +115,9 @@ std::uint64_t cameraKeyOf(const FrameInput& input);
 /// other box. Conservative: never false when a shadow is possible.
 bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& casterWorld,
                        const scene::Bounds& receiverWorld);
+/// The same where the light's space is known.
+bool shadowRegionMeets(const scene::AreaLight& light, const LightSpace& space,
+                       const scene::Bounds& casterWorld, const scene::Bounds& receiverWorld);
 
 /// True when the box can be inside the camera's view. Conservative.
 bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight, const scene::Bounds& boundsWorld);

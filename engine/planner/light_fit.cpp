@@ -141,11 +141,18 @@ LightFitter::Extent LightFitter::extentOf(const CasterShape& caster) const {
 }
 
 void LightFitter::measure(std::span<const CasterShape> casters) {
-  std::swap(extents_, before_);
-  extents_.clear();
-  extents_.reserve(casters.size());
+  // Those of the frame before stay where they are, while they are the same.
+  std::size_t same = 0;
+  const std::size_t common = std::min(extents_.size(), casters.size());
+  for (; same < common && extents_[same].id == casters[same].id; ++same) {
+    if (extents_[same].revision == casters[same].revision) continue;
+    extents_[same] = extentOf(casters[same]);
+    ++castersMeasured_;
+  }
+  before_.assign(extents_.begin() + static_cast<std::ptrdiff_t>(same), extents_.end());
+  extents_.resize(same);
   auto known = before_.begin();
-  for (const CasterShape& caster : casters) {
+  for (const CasterShape& caster : casters.subspan(same)) {
     // Casters come in the order of their ids; what is in another order is measured again.
     while (known != before_.end() && known->id < caster.id) ++known;
     if (known != before_.end() && known->id == caster.id && known->revision == caster.revision) {

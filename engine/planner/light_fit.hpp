@@ -91,7 +91,8 @@ class LightFitter {
 
   LightSpace space_;
   double nearLightDistance_ = 0.0;
-  std::vector<Extent> extents_, before_;  ///< of the casters in their order; of the frame before
+  std::vector<Extent> extents_;  ///< of the casters in their order
+  std::vector<Extent> before_;   ///< of the frame before, while they are sorted in
   std::uint64_t castersMeasured_ = 0;
 };
 

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "planner/light_space.hpp"
-
 namespace halfshadow::planner {
 
 /// Takes over what the objects are now: `fresh_`, and verdicts that rest on what is no more.
@@ -63,13 +61,14 @@ bool Relevance::meets(const FrameInput& input, std::uint32_t caster, std::uint32
     reason = SkipReason::nothingBeyond;
     return false;
   }
-  return shadowRegionMeets(light_, input.objects[caster].boundsWorld, input.objects[receiver].boundsWorld);
+  return shadowRegionMeets(light_, space_, input.objects[caster].boundsWorld,
+                           input.objects[receiver].boundsWorld);
 }
 
 Relevance::Verdict Relevance::searched(const FrameInput& input, std::uint32_t caster,
                                        const std::vector<char>& receivers,
                                        std::span<const std::uint32_t> likelyFirst) {
-  if (lightSpace(light_).boundsLight(input.objects[caster].boundsWorld).high.z <= 0.0)
+  if (space_.boundsLight(input.objects[caster].boundsWorld).high.z <= 0.0)
     return {Verdict::Kind::apart, SkipReason::behindLight, 0};
   Verdict verdict{.kind = Verdict::Kind::apart};
   for (const std::uint32_t receiver : likelyFirst) {
@@ -86,6 +85,7 @@ void Relevance::update(const FrameInput& input, std::size_t light, const std::ve
   const bool sameObjects = std::ranges::equal(input.objects, known_, {}, &PlannedObject::id, &Known::id);
   const bool anew = !sameObjects || lightRevision != lightRevision_;
   light_ = input.lights[light];
+  space_ = lightSpace(light_);
   lightRevision_ = lightRevision;
   separation_.begin(input, light_, anew);
   if (anew) {

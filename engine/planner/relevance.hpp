@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "planner/frame_planner.hpp"
+#include "planner/light_space.hpp"
 #include "planner/separation.hpp"
 
 namespace halfshadow::planner {
@@ -54,6 +55,7 @@ class Relevance {
 
   std::uint64_t lightRevision_ = 0, cameraKey_ = 0;
   scene::AreaLight light_;
+  LightSpace space_;
   Separation separation_;
   std::vector<Known> known_;  ///< by index, as all that follows
   std::vector<Verdict> verdicts_;

@@ -43,8 +43,8 @@ void Separation::begin(const FrameInput& input, const scene::AreaLight& light, b
   light_ = &light;
   lightCorners_ = lightCornersRelative(light);
   if (anew) {
-    bodies_.clear();
     bodies_.resize(input.objects.size());
+    for (Body& known : bodies_) known.forget();
     byCamera_.clear();
   }
   if (input.camera == nullptr) return;
@@ -59,10 +59,10 @@ void Separation::begin(const FrameInput& input, const scene::AreaLight& light, b
 }
 
 const Separation::Body& Separation::body(std::uint32_t index) {
-  std::optional<Body>& known = bodies_[index];
-  if (known) return *known;
+  Body& made = bodies_[index];
+  if (made.known) return made;
   const PlannedObject& object = input_->objects[index];
-  Body& made = known.emplace();
+  made.known = true;
   made.fromObject = object.worldFromObject;
   made.fromObject[3] -= glm::dvec4(light_->centerWorld, 0.0);
   made.largestTranslation = glm::abs(glm::dvec3(object.worldFromObject[3]));
@@ -77,7 +77,7 @@ const Separation::Body& Separation::body(std::uint32_t index) {
 
 const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
   body(index);
-  Body& shape = *bodies_[index];
+  Body& shape = bodies_[index];
   if (!shape.planes.empty()) return shape.planes;
   const scene::SupportingPlanes& support = *input_->objects[index].support;
   const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(shape.fromObject)));
@@ -161,13 +161,15 @@ bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std
   // What does not come before the plane at all is another matter: hardly ever is it wholly hidden.
   if (std::ranges::all_of(shape.corners, [&](const glm::dvec3& c) { return heightOf(c) <= slack; }))
     return false;
-  std::vector<glm::dvec3> outline;
+  std::vector<glm::dvec3>& outline = outline_;
+  outline.clear();
   for (const glm::dvec3& corner : plane.source->outline) {
     outline.emplace_back(body(caster).fromObject * glm::dvec4(corner, 1.0));
   }
   // The part of a triangle behind is the hull of its corners there and of where its edges pass: so is its
   // image on the plane, seen from anywhere before it. Where they pass needs no camera.
-  std::vector<glm::dvec3> behind;
+  std::vector<glm::dvec3>& behind = behind_;
+  behind.clear();
   const scene::TriangleMesh& mesh = *input_->objects[receiver].mesh;
   for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
     std::array<glm::dvec3, 3> corners;

@@ -6,7 +6,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -34,7 +33,7 @@ class Separation {
   /// For the questions of one frame. What is known of bodies stays, unless `anew`: the light or the list of
   /// objects is another.
   void begin(const FrameInput& input, const scene::AreaLight& light, bool anew);
-  void forget(std::uint32_t object) { bodies_[object].reset(); }
+  void forget(std::uint32_t object) { bodies_[object].forget(); }
   /// Proved: no ray from a point of the receiver that can be seen to the light meets the caster.
   bool cannotShadow(std::uint32_t caster, std::uint32_t receiver);
   /// What the answers so far would have to be asked again for when the camera moves.
@@ -60,12 +59,17 @@ class Separation {
     glm::dvec3 largestTranslation{0.0};
     std::vector<Plane> planes;  ///< of faces first, then of the box; made when first asked for
     std::size_t facePlanes = 0;
+    bool known = false;
+    void forget() {  // but the memory
+      known = false;
+      planes.clear();
+    }
   };
   const Body& body(std::uint32_t object);
   const std::vector<Plane>& planes(std::uint32_t object);
   std::span<const Plane> facePlanes(std::uint32_t object) {
     const std::vector<Plane>& all = planes(object);
-    return {all.data(), bodies_[object]->facePlanes};
+    return {all.data(), bodies_[object].facePlanes};
   }
   double rounding(std::uint32_t object, const glm::dvec3& direction);
   bool proves(std::uint32_t caster, std::uint32_t receiver);
@@ -80,9 +84,10 @@ class Separation {
   std::array<glm::dvec3, 4> lightCorners_{};
   glm::dvec3 eye_{0.0};  ///< relative to the light's centre, as are the near plane's corners
   std::array<glm::dvec3, 4> nearCorners_{};
-  std::vector<std::optional<Body>> bodies_;
+  std::vector<Body> bodies_;
   std::vector<ByCamera> byCamera_;
   bool askedCamera_ = false;
+  std::vector<glm::dvec3> outline_, behind_;  ///< working memory
 };
 
 /// The eye, or a part of the near plane, may be inside the object: then it may be seen from within.
