@@ -132,18 +132,29 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     target.shadowlessReceivers.back().casts = false;
   }
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
+  const double receiverFarDistance = receiverReach(cache, sceneObjects, sceneKey);
+  std::string splitReason;
+  const planner::SubLights* subLights = cache.split.update({.light = cache.light,
+                                                            .fit = cache.fit,
+                                                            .casterPointsWorld = cache.casterPointsWorld,
+                                                            .receiverFarDistance = receiverFarDistance,
+                                                            .contentKey = plan.contentKey},
+                                                           *used, *settings, splitReason);
+  if (!splitReason.empty())
+    frame.graph.noteSkipped("light " + std::to_string(index) + " sub-lights", splitReason);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
                                      .settings = *settings,
                                      .screen = frame.view,
                                      .channel = static_cast<int>(index),
                                      .name = "light " + std::to_string(index),
                                      .light = cache.light,
-                                     .views = {{.fit = cache.fit,
+                                     .center = {.fit = cache.fit,
                                                 .casters = target.casters,
                                                 .contentKey = plan.contentKey,
-                                                .sceneKey = sceneKey}},
+                                                .sceneKey = sceneKey},
+                                     .subLights = subLights,
                                      .casterPointsWorld = cache.casterPointsWorld,
-                                     .receiverFarDistance = receiverReach(cache, sceneObjects, sceneKey),
+                                     .receiverFarDistance = receiverFarDistance,
                                      .casters = target.casters,
                                      .groups = cache.groups,
                                      .receivers = frame.receivers,

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/light_split.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -66,6 +67,7 @@ struct LightCache {
   planner::LightFit fit;
   std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
   double receiverFarDistance = 0.0;
+  api::LightSplit split;
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };

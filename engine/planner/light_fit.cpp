@@ -61,22 +61,29 @@ Interval snapTangents(const Interval& tangents, int mapSize, int borderTexels) {
 
 // Tangents along one axis (0 = x, 1 = y): of all points where they all lie before the light, else of their
 // part beyond `nearDistance`. Points are not joined to casters, so a point behind the light may belong to any
-// of them: wherever a caster is cut, it is cut inside the box of all points.
+// of them: wherever a caster is cut, it is cut inside the box of all points. `spread`: see
+// LightFitOptions::centerSpread.
 Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, double nearest,
-                     double nearDistance) {
+                     const DepthRange& depth, double spread) {
+  const double nearDistance = depth.nearDistance;
   Interval tangents, lateral;
+  const auto include = [&](double side, double z) {
+    const double shift = spread * std::abs(1.0 / z - 1.0 / depth.farDistance);
+    tangents.include(side / z - shift);
+    tangents.include(side / z + shift);
+  };
   bool cut = false;
   for (const glm::dvec3& point : pointsLight) {
     lateral.include(point[axis]);
     if (nearest > 0.0 || point.z >= nearDistance) {
-      tangents.include(point[axis] / point.z);
+      include(point[axis], point.z);
     } else {
       cut = true;
     }
   }
   if (cut) {
-    tangents.include(lateral.low / nearDistance);
-    tangents.include(lateral.high / nearDistance);
+    include(lateral.low, nearDistance);
+    include(lateral.high, nearDistance);
   }
   return tangents;
 }
@@ -158,7 +165,7 @@ LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> cas
   fit.castersBeforeNear = nearest < depth.nearDistance;
   fit.castersCrossPlane = !(nearest > 0.0);
   for (int axis = 0; axis < 2; ++axis) {
-    Interval tangents = fitTangents(pointsLight, axis, nearest, depth.nearDistance);
+    Interval tangents = fitTangents(pointsLight, axis, nearest, depth, options.centerSpread[axis]);
     if (tangents.low > options.maxTangent || tangents.high < -options.maxTangent) return fit;
     tangents = {std::max(tangents.low, -options.maxTangent), std::min(tangents.high, options.maxTangent)};
     const Interval snapped = snapTangents(tangents, options.mapSize, options.borderTexels);

@@ -50,6 +50,9 @@ struct LightFitOptions {
   double minNearShare = 1e-3;       ///< near is at least this share of the casters' largest distance
   bool pointsAreTriangles = false;  ///< three a triangle: needed to judge casterNearLight
   double nearShare = 1.0;
+  /// Half extent of the centres of sub-lights whose maps share the window, see SubLights; the window then
+  /// holds the casters as each of them sees them, shifted so that they agree at the far distance.
+  glm::dvec2 centerSpread{0.0};
 };
 
 /// Smallest view of `casterPointsWorld` (corners of the casters' boxes, or their vertices: tighter) that
