@@ -99,18 +99,28 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   }
   api::updateItems(cache.shadowlessReceivers, lists, shadowless, api::ItemRole::shadowless);
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
+  const double receiverFarDistance = receiverReach(cache, sceneKey);
+  std::string splitReason;
+  const planner::SubLights* subLights = cache.split.update({.light = cache.light,
+                                                            .fit = cache.fit,
+                                                            .casters = cache.casterShapes.values(),
+                                                            .receiverFarDistance = receiverFarDistance,
+                                                            .contentKey = plan.contentKey},
+                                                           *used, *settings, splitReason);
+  if (!splitReason.empty()) frame.graph.noteSkipped(nameOf(index) + " sub-lights", splitReason);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
                                      .settings = *settings,
                                      .screen = frame.view,
                                      .channel = static_cast<int>(index),
                                      .name = nameOf(index),
                                      .light = cache.light,
-                                     .views = {{.fit = cache.fit,
+                                     .center = {.fit = cache.fit,
                                                 .casters = cache.casters.values(),
                                                 .contentKey = plan.contentKey,
-                                                .sceneKey = sceneKey}},
+                                                .sceneKey = sceneKey},
+                                     .subLights = subLights,
                                      .casterShapes = cache.casterShapes.values(),
-                                     .receiverFarDistance = receiverReach(cache, sceneKey),
+                                     .receiverFarDistance = receiverFarDistance,
                                      .casters = cache.casters.values(),
                                      .groups = cache.groups,
                                      .receivers = frame.receivers,

@@ -13,6 +13,7 @@
 
 #include "api/engine_object.hpp"
 #include "api/item_list.hpp"
+#include "api/light_split.hpp"
 #include "api/scene_lists.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
@@ -39,6 +40,7 @@ struct LightCache {
   planner::LightFit fit;
   std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
   double receiverFarDistance = 0.0;
+  api::LightSplit split;
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };

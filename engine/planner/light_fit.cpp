@@ -124,9 +124,8 @@ LightFitter::Extent LightFitter::extentOf(const CasterShape& caster) const {
   for (const glm::dvec3& world : caster.pointsWorld) {
     const glm::dvec3 point = space_.lightFromWorld(world);
     low = glm::min(low, point), high = glm::max(high, point);
-    const glm::dvec2 tangent = glm::dvec2(point) / point.z;
-    extent.tangentLow = glm::min(extent.tangentLow, tangent);
-    extent.tangentHigh = glm::max(extent.tangentHigh, tangent);
+    extent.tangentLow = glm::min(extent.tangentLow, (glm::dvec2(point) - centerSpread_) / point.z);
+    extent.tangentHigh = glm::max(extent.tangentHigh, (glm::dvec2(point) + centerSpread_) / point.z);
   }
   extent.nearest = low.z, extent.farthest = high.z;
   extent.low = glm::dvec2(low), extent.high = glm::dvec2(high);
@@ -164,13 +163,13 @@ void LightFitter::measure(std::span<const CasterShape> casters) {
   }
 }
 
-/// Of all points where all casters lie before the light, else (`cut`) of their part beyond `nearDistance`.
+/// Of all points where all casters lie before the light, else (`cut`) of their part beyond the near distance.
 /// Points are not joined to triangles, so a point behind the light may belong to any of them: wherever a
-/// caster is cut, it is cut inside the box of all points.
+/// caster is cut, it is cut inside the box of all points. See LightFitOptions::centerSpread.
 void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
-                              glm::dvec2& low, glm::dvec2& high) const {
-  const auto include = [&](const glm::dvec2& from, const glm::dvec2& to) {
-    low = glm::min(low, from), high = glm::max(high, to);
+                              double farDistance, glm::dvec2& low, glm::dvec2& high) const {
+  const auto include = [&](const glm::dvec2& side, double z) {
+    low = glm::min(low, (side - centerSpread_) / z), high = glm::max(high, (side + centerSpread_) / z);
   };
   glm::dvec2 boxLow(std::numeric_limits<double>::infinity()), boxHigh = -boxLow;
   bool anyCut = false;
@@ -178,24 +177,30 @@ void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, do
     const Extent& extent = extents_[i];
     boxLow = glm::min(boxLow, extent.low), boxHigh = glm::max(boxHigh, extent.high);
     if (!cut || extent.nearest >= nearDistance) {
-      include(extent.tangentLow, extent.tangentHigh);
+      low = glm::min(low, extent.tangentLow), high = glm::max(high, extent.tangentHigh);
       continue;
     }
     anyCut = true;
     for (const glm::dvec3& world : casters[i].pointsWorld) {
       const glm::dvec3 point = space_.lightFromWorld(world);
-      if (point.z >= nearDistance) include(glm::dvec2(point) / point.z, glm::dvec2(point) / point.z);
+      if (point.z >= nearDistance) include(glm::dvec2(point), point.z);
     }
   }
-  if (anyCut) include(boxLow / nearDistance, boxLow / nearDistance);
-  if (anyCut) include(boxHigh / nearDistance, boxHigh / nearDistance);
+  if (anyCut) include(boxLow, nearDistance);
+  if (anyCut) include(boxHigh, nearDistance);
+  // Nothing lies beyond the far distance, where all centres agree.
+  low += centerSpread_ / farDistance, high -= centerSpread_ / farDistance;
 }
 
 LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
                           const LightFitOptions& options) {
   const LightSpace space = lightSpace(light);
   const double nearLightDistance = options.nearShare * 2.0 * std::max(space.halfSize.x, space.halfSize.y);
-  if (!sameSpace(space, space_) || nearLightDistance != nearLightDistance_) extents_.clear();
+  if (!sameSpace(space, space_) || nearLightDistance != nearLightDistance_ ||
+      options.centerSpread != centerSpread_) {
+    extents_.clear();
+  }
+  centerSpread_ = options.centerSpread;
   space_ = space;
   nearLightDistance_ = nearLightDistance;
   measure(casters);
@@ -217,7 +222,7 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   fit.castersBeforeNear = nearest < depth.nearDistance;
   fit.castersCrossPlane = !(nearest > 0.0);
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
-  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, low, high);
+  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, depth.farDistance, low, high);
   for (int axis = 0; axis < 2; ++axis) {
     if (low[axis] > options.maxTangent || high[axis] < -options.maxTangent) return fit;
     const Interval tangents = {std::max(low[axis], -options.maxTangent),

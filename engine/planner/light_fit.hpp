@@ -51,6 +51,9 @@ struct LightFitOptions {
   double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
   double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
   double nearShare = 1.0;
+  /// Half extent of the centres of sub-lights whose maps share the window, see SubLights; the window then
+  /// holds the casters as each of them sees them, shifted so that they agree at the far distance.
+  glm::dvec2 centerSpread{0.0};
 };
 
 /// A caster as fits see it.
@@ -86,11 +89,12 @@ class LightFitter {
   };
   Extent extentOf(const CasterShape& caster) const;
   void measure(std::span<const CasterShape> casters);
-  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance, glm::dvec2& low,
-                   glm::dvec2& high) const;
+  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance, double farDistance,
+                   glm::dvec2& low, glm::dvec2& high) const;
 
   LightSpace space_;
   double nearLightDistance_ = 0.0;
+  glm::dvec2 centerSpread_{0.0};
   std::vector<Extent> extents_;  ///< of the casters in their order
   std::vector<Extent> before_;   ///< of the frame before, while they are sorted in
   std::uint64_t castersMeasured_ = 0;

@@ -7,7 +7,7 @@
 // Cells are weighed here, not by the sampler: filters of 8 bits leave no depth to tell widths by, and a cell
 // beyond the receiver blocks nothing.
 uniform HS_HIGHP sampler2D u_pyramid;
-// x: cells per side of the finest level, y: last level, z: 1 / texels of the depth map per side
+// x: cells per side of the finest level, y: last level, z: 1 / texels of the depth map per side; of one map of several
 uniform HS_HIGHP vec4 u_pyramidLayout;
 // x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
@@ -16,6 +16,12 @@ uniform HS_HIGHP vec4 u_pyramidRange;
 HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
   HS_HIGHP float side = floor(u_pyramidLayout.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_pyramidLayout.x, u_pyramidLayout.x - 2.0 * side);
+#ifdef HS_SUB_LIGHTS_U
+  origin = origin * u_subLights.w + hs_tile * side;
+  HS_HIGHP vec2 scale = vec2(2.0 / 3.0, 1.0) / (u_pyramidLayout.x * u_subLights.w);
+#else
+  HS_HIGHP vec2 scale = vec2(2.0 / 3.0, 1.0) / u_pyramidLayout.x;
+#endif
   HS_HIGHP vec2 at = texel * (side * u_pyramidLayout.z) - 0.5;
   HS_HIGHP vec2 first = floor(at);
   HS_HIGHP vec2 part = at - first;
@@ -26,7 +32,7 @@ HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
     HS_HIGHP vec2 inside = step(vec2(0.0), cell) * step(cell, vec2(side - 0.5));
     HS_HIGHP vec2 weight = mix(1.0 - part, part, corner) * inside;
     HS_HIGHP vec2 stored = hs_unpackOccupancy(
-        texture2D(u_pyramid, (origin + cell + 0.5) * (vec2(2.0 / 3.0, 1.0) / u_pyramidLayout.x)));
+        texture2D(u_pyramid, (origin + cell + 0.5) * scale));
     HS_COUNT(1);
     HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
     sum += weight.x * weight.y * stored.x * step(0.0, gap) * vec2(1.0, gap);

@@ -14,7 +14,7 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 width, float taps) {
   HS_HIGHP float gapSum = 0.0;
   for (int i = 0; i < HS_SEARCH * HS_SEARCH; ++i) {
     if (float(i) >= taps) break;
-    HS_HIGHP float gap = hs_gap(texture2D(u_depthMap, (hs_texel + offset) * u_map.y), hs_receiver);
+    HS_HIGHP float gap = hs_gap(texture2D(u_depthMap, hs_mapUv(hs_texel + offset)), hs_receiver);
     HS_COUNT(1);
     HS_HIGHP float blocks = 1.0 - step(min(dot(hs_gradient, offset), 0.0) - bias, gap);
     blockers += blocks;

@@ -4,9 +4,12 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
+#include "map/sub_lights.glsl"
+float hs_visibility() { return hs_hardTap(); }
+
 float halfshadow_visibility() {
   hs_prepare();
-  return hs_lightMisses ? 1.0 : hs_hardTap();
+  return hs_lightMisses ? 1.0 : hs_meanVisibility();
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -13,14 +13,14 @@ float hs_pcfGrid() {
   for (int y = 0; y < HS_KERNEL; ++y) {
     for (int x = 0; x < HS_KERNEL; ++x) {
       HS_HIGHP vec2 offset = vec2(float(x), float(y));
-      lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+      lit += hs_lit(first + offset, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
     }
   }
 #else
   // One flat loop: nested ones are unrolled by mobile compilers and no longer fit.
   HS_HIGHP vec2 offset = vec2(0.0);
   for (int i = 0; i < HS_KERNEL * HS_KERNEL; ++i) {
-    lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    lit += hs_lit(first + offset, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
     offset.x += 1.0;
     float wrapped = step(float(HS_KERNEL) - 0.5, offset.x);
     offset += wrapped * vec2(-float(HS_KERNEL), 1.0);
@@ -39,7 +39,7 @@ float hs_pcfGridBounded(float count) {
   HS_HIGHP vec2 offset = vec2(0.0);
   for (int i = 0; i < HS_KERNEL * HS_KERNEL; ++i) {
     if (float(i) >= count) break;
-    lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    lit += hs_lit(first + offset, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
     offset.x += 1.0;
     float wrapped = step(float(HS_KERNEL) - 0.5, offset.x);
     offset += wrapped * vec2(-float(HS_KERNEL), 1.0);

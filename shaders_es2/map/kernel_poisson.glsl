@@ -7,7 +7,7 @@ uniform HS_HIGHP vec4 u_poisson;  // x: radius in texels
 float hs_discTap(HS_HIGHP vec2 axis, HS_HIGHP vec2 point, HS_HIGHP float bias) {
   HS_HIGHP vec2 turned = vec2(axis.x * point.x - axis.y * point.y, axis.y * point.x + axis.x * point.y);
   HS_HIGHP vec2 center = floor(hs_texel + turned) + 0.5;
-  return hs_lit(center * u_map.y, hs_receiver, dot(hs_gradient, center - hs_texel), bias);
+  return hs_lit(center, hs_receiver, dot(hs_gradient, center - hs_texel), bias);
 }
 
 float hs_pcfPoisson() {

@@ -21,13 +21,13 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
   HS_HIGHP float pairs = floor(0.5 * side * side);
   HS_HIGHP float hasCenter = side * side - 2.0 * pairs;
   float lit = 0.0;
-  if (hasCenter > 0.5) lit = hs_lit(hs_texel * u_map.y, hs_receiver, 0.0, bias);
+  if (hasCenter > 0.5) lit = hs_lit(hs_texel, hs_receiver, 0.0, bias);
   for (int i = 0; i < HS_SPREAD_KERNEL * HS_SPREAD_KERNEL / 2; ++i) {
     if (float(i) >= pairs) break;
     HS_HIGHP vec2 offset = hs_spreadPlace(place) * stride;
     HS_HIGHP float plane = dot(hs_gradient, offset);
-    lit += hs_lit((hs_texel + offset) * u_map.y, hs_receiver, plane, bias) +
-           hs_lit((hs_texel - offset) * u_map.y, hs_receiver, -plane, bias);
+    lit += hs_lit(hs_texel + offset, hs_receiver, plane, bias) +
+           hs_lit(hs_texel - offset, hs_receiver, -plane, bias);
     place.x += 1.0;
     HS_HIGHP float wrapped = step(last + 0.5, place.x);
     place += wrapped * vec2(-side, 1.0);
@@ -43,7 +43,7 @@ float hs_pcfSpread(HS_HIGHP vec2 width) {
   float lit = 0.0;
   for (int i = 0; i < HS_SPREAD_KERNEL * HS_SPREAD_KERNEL; ++i) {
     HS_HIGHP vec2 offset = hs_spreadPlace(place) * stride;
-    lit += hs_lit((hs_texel + offset) * u_map.y, hs_receiver, dot(hs_gradient, offset), bias);
+    lit += hs_lit(hs_texel + offset, hs_receiver, dot(hs_gradient, offset), bias);
     place.x += 1.0;
     HS_HIGHP float wrapped = step(0.5 * float(HS_SPREAD_KERNEL), place.x);
     place += wrapped * vec2(-float(HS_SPREAD_KERNEL), 1.0);

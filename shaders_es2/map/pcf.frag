@@ -4,6 +4,7 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
+#include "map/sub_lights.glsl"
 #ifdef HS_POISSON_COUNT
 #include "map/kernel_poisson.glsl"
 #define hs_pcf hs_pcfPoisson
@@ -11,9 +12,11 @@
 #include "map/kernel_grid.glsl"
 #define hs_pcf hs_pcfGrid
 #endif
+float hs_visibility() { return hs_pcf(); }
+
 float halfshadow_visibility() {
   hs_prepare();
-  return hs_lightMisses ? 1.0 : hs_pcf();
+  return hs_lightMisses ? 1.0 : hs_meanVisibility();
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -7,6 +7,8 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
+#include "map/sub_lights.glsl"
+#include "map/horizon.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
@@ -37,21 +39,14 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   return u_penumbra.xy * (width / widest);
 }
 
-float halfshadow_class() {
-  hs_prepare();
-  return hs_maskClass();
-}
-
-float halfshadow_visibility() {
-  hs_prepare();
-  float known = hs_maskClass();
-  if (known > -0.5) return known;
+float hs_filteredVisibility() {
   HS_HIGHP float side;
   HS_HIGHP vec2 width = hs_bandWidth(side);
   if (width.x < 0.0) return 1.0;
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   return hs_spreadSum(max(width, vec2(1.0)), side, bias);
 }
+#include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"

@@ -22,7 +22,7 @@ float halfshadow_visibility() {
   float lit = 0.0;
   for (int i = 0; i < HS_SPREAD_KERNEL * HS_SPREAD_KERNEL; ++i) {
     if (float(i) > count) break;
-    lit += hs_lit((first + offset) * u_map.y, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
+    lit += hs_lit(first + offset, hs_receiver, planeFirst + dot(hs_gradient, offset), bias);
     offset.x += 1.0;
     float wrapped = step(side - 0.5, offset.x);
     offset += wrapped * vec2(-side, 1.0);

@@ -6,6 +6,8 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
+#include "map/sub_lights.glsl"
+#include "map/horizon.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
@@ -25,19 +27,12 @@ HS_HIGHP vec2 hs_penumbraWidth() {
 #endif
 }
 
-float halfshadow_class() {
-  hs_prepare();
-  return hs_maskClass();
-}
-
-float halfshadow_visibility() {
-  hs_prepare();
-  float known = hs_maskClass();
-  if (known > -0.5) return known;
+float hs_filteredVisibility() {
   HS_HIGHP vec2 width = hs_penumbraWidth();
   if (width.x < 0.0) return 1.0;
   return hs_pcfSpread(max(width, vec2(1.0)));
 }
+#include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"

@@ -7,14 +7,14 @@
 // light than the point it shadows, and a plane extended past a silhouette would invent blockers.
 uniform HS_HIGHP sampler2D u_depthMap;
 
-// uv: texture coordinates; planeOffset: dot(hs_gradient, hs_texel offset from the receiver), in depth units.
-float hs_lit(HS_HIGHP vec2 uv, HS_Depth receiver, HS_HIGHP float planeOffset, HS_HIGHP float bias) {
+// texel: place in the map; planeOffset: dot(hs_gradient, its offset from the receiver's hs_texel), in depth units.
+float hs_lit(HS_HIGHP vec2 texel, HS_Depth receiver, HS_HIGHP float planeOffset, HS_HIGHP float bias) {
   HS_COUNT(1);
-  return step(min(planeOffset, 0.0) - bias, hs_gap(texture2D(u_depthMap, uv), receiver));
+  return step(min(planeOffset, 0.0) - bias, hs_gap(texture2D(u_depthMap, hs_mapUv(texel)), receiver));
 }
 
 float hs_hardTap() {
   HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
   HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  return hs_lit(center * u_map.y, hs_receiver, dot(hs_gradient, center - hs_texel), bias);
+  return hs_lit(center, hs_receiver, dot(hs_gradient, center - hs_texel), bias);
 }

@@ -20,7 +20,7 @@ uniform HS_HIGHP sampler2D u_attenuationMap;
 
 float hs_visibility() {
   HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
-  HS_HIGHP vec4 stored = texture2D(u_depthMap, center * u_map.y);
+  HS_HIGHP vec4 stored = texture2D(u_depthMap, hs_mapUv(center));
   HS_COUNT(1);
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float gap = hs_gap(stored, hs_receiver);
@@ -117,7 +117,7 @@ float hs_visibility() {
   if (exact) {
     // Only the exact depth knows, and what it finds lit is.
     HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
-    HS_HIGHP float exactGap = hs_gap(texture2D(u_depthMap, center * u_map.y), hs_receiver);
+    HS_HIGHP float exactGap = hs_gap(texture2D(u_depthMap, hs_mapUv(center)), hs_receiver);
     HS_COUNT(1);
     HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
     if (exactGap >= min(dot(hs_gradient, center - hs_texel), 0.0) - bias) return 1.0;

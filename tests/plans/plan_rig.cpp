@@ -102,7 +102,7 @@ const techniques::LightScene& PlanRig::prepare(int channel) {
       .channel = channel,
       .name = "light " + std::to_string(channel),
       .light = light_,
-      .views = {{.fit = fit, .casters = casters_, .contentKey = contentKey, .sceneKey = sceneKey}},
+      .center = {.fit = fit, .casters = casters_, .contentKey = contentKey, .sceneKey = sceneKey},
       .casterShapes = casterShapes_,
       .receiverFarDistance = kReceiversBehindCasters * fit.farthestCaster,
       .casters = casters_,

@@ -43,7 +43,7 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
                              .screen = view_,
                              .name = "light 0",
                              .light = light_,
-                             .views = {{.fit = fit, .casters = casters_, .contentKey = 1, .sceneKey = 1}},
+                             .center = {.fit = fit, .casters = casters_, .contentKey = 1, .sceneKey = 1},
                              .casterShapes = {&shape_, 1},
                              .receiverFarDistance = 1.3 * farthest,
                              .casters = casters_,

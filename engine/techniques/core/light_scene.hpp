@@ -9,8 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "base/rect.hpp"
 #include "device/capabilities.hpp"
 #include "planner/light_fit.hpp"
+#include "planner/sub_lights.hpp"
 #include "scene/caster_groups.hpp"
 #include "scene/light.hpp"
 #include "scene/light_silhouettes.hpp"
@@ -30,6 +32,7 @@ struct View {
 /// A map's worth of what a light sees: its casters from one point of the light, by one projection.
 struct LightView {
   planner::LightFit fit;              ///< projection, near and far, size
+  Rect rect;                          ///< of the atlas that it shares with the others of its light, texels
   std::span<const DrawItem> casters;  ///< that matter in it
   std::string name;                   ///< of its images, "light 0 sample 3"
   std::uint64_t contentKey = 0;       ///< of light, casters and fit; 0: remade each frame
@@ -44,7 +47,8 @@ struct LightScene {
   int channel = 0;   ///< its place among the frame's lights, of images that hold one in each channel
   std::string name;  ///< "light 0": what names of images and passes begin with
   const scene::AreaLight& light;
-  std::vector<LightView> views;  ///< at least one; the first is from its centre, of all its casters
+  LightView center;                                    ///< from its centre, of all its casters
+  const planner::SubLights* subLights = nullptr;       ///< what maps see it through; null: it is seen whole
   std::span<const planner::CasterShape> casterShapes;  ///< of `casters`: what the views enclose
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< of all views
@@ -55,9 +59,15 @@ struct LightScene {
   std::uint64_t contentKey = 0;  ///< of light and casters
   std::uint64_t sceneKey = 0;    ///< the same with the receivers
 
-  const LightView& center() const { return views.front(); }
-  const planner::LightFit& fit() const { return center().fit; }
+  const planner::LightFit& fit() const { return center.fit; }
 };
+
+/// What maps of the light are made from, in one atlas: its sub-lights' views, or the one from its centre.
+struct AtlasViews {
+  std::vector<LightView> views;
+  int atlasSize = 0;  ///< texels a side
+};
+AtlasViews atlasViews(const LightScene& scene);
 
 /// For ReceiverShading::mapFromWorld of what tells nothing but the height over the light's plane (z), in
 /// every component.

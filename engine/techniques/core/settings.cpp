@@ -24,7 +24,20 @@ bool parse(std::string_view text, double& value) {
 
 std::vector<SettingInfo> commonSettings() {
   return {
-      {"map_size", SettingType::integer, "1024", 16, 8192, {}, "side of depth maps in texels"},
+      {"map_size",
+       SettingType::integer,
+       "1024",
+       16,
+       8192,
+       {},
+       "side in texels of the depth map, or of all maps that a light's sub-lights share"},
+      {"sub_lights",
+       SettingType::choice,
+       "auto",
+       0,
+       0,
+       {"auto", "1", "2", "3", "4"},
+       "parts per longer side of a rectangle light that maps see it from; auto: as the penumbrae need"},
       {"bias",
        SettingType::real,
        "1.0",

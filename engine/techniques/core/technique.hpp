@@ -31,6 +31,13 @@ struct Support {
   std::string reason;  ///< the missing capability by name, and what would provide it
 };
 
+/// What a technique makes of setting sub_lights.
+enum class SubLightUse {
+  none,       ///< it sees the light whole
+  whenAsked,  ///< whole at `auto`
+  automatic   ///< as many at `auto` as planner::chooseSubLights() says
+};
+
 class Technique {
  public:
   virtual ~Technique() = default;
@@ -48,6 +55,10 @@ class Technique {
   virtual std::optional<StandIn> standIn(const LightScene& scene) const {
     (void)scene;
     return std::nullopt;
+  }
+  virtual SubLightUse subLightUse(const Settings& settings) const {
+    (void)settings;
+    return SubLightUse::none;
   }
   /// For a light that takes this technique; the engine keeps it beside the light.
   virtual std::unique_ptr<LightPlanner> newPlanner() const = 0;

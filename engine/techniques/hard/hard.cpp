@@ -18,15 +18,16 @@ class Hard final : public Technique {
     return info;
   }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return mapReceiverFamilies("map/hard.frag", {});
+    return mapReceiverFamilies("map/hard.frag", {subLightAxis()});
   }
+  SubLightUse subLightUse(const Settings&) const override { return SubLightUse::whenAsked; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     plan.shading = mapReceiverShading(scene, plan, depth, "map/hard.frag");
     return {};
   }

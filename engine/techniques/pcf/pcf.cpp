@@ -87,15 +87,16 @@ class Pcf final : public Technique {
   }
   std::vector<SettingInfo> settings() const override { return kernelSettings("pcf"); }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return mapReceiverFamilies("map/pcf.frag", {kernelAxis()});
+    return mapReceiverFamilies("map/pcf.frag", {kernelAxis(), subLightAxis()});
   }
+  SubLightUse subLightUse(const Settings&) const override { return SubLightUse::whenAsked; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     plan.shading = kernelShading(scene, plan, depth, "pcf", "map/pcf.frag");
     return {};
   }
@@ -145,7 +146,7 @@ class PcfMasked final : public Technique {
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
     const Settings& settings = scene.settings;
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepth(scene, scene.center, plan, MapContent::casters);
     ReceiverShading& shading = plan.shading;
     shading = kernelShading(scene, plan, depth, "pcf-masked", "map/pcf_masked.frag");
     const double radius = kernelRadiusTexels(scene, "pcf-masked");

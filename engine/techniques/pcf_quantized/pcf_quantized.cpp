@@ -72,11 +72,15 @@ class PcfQuantized final : public Technique {
   }
   std::vector<ShaderFamily> shaderFamilies() const override {
     return joined(
-        {mapReceiverFamilies("map/pcf_quantized.frag",
-                             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_SEARCH 5"}}}, castingAxis()},
-                             {.twoDraws = true}),
+        {mapReceiverFamilies(
+             "map/pcf_quantized.frag",
+             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_SEARCH 5"}}}, castingAxis(), subLightAxis()},
+             {.twoDraws = true}),
          mapReceiverFamilies("map/pcf_quantized_paper.frag",
                              {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_LIT_OUTSIDE"}}}})});
+  }
+  SubLightUse subLightUse(const Settings& settings) const override {
+    return settings.choice("pcf-quantized.preset") == "paper" ? SubLightUse::none : SubLightUse::automatic;
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
@@ -90,7 +94,7 @@ class PcfQuantized final : public Technique {
 
   static Status planPaper(const LightScene& scene, PassPlan& plan) {
     // The paper's map holds the whole scene: an edge's strength is the step from caster to receiver.
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::castersAndReceivers);
+    const LightDepth depth = planLightDepth(scene, scene.center, plan, MapContent::castersAndReceivers);
     const auto sides = kernelSides(scene.settings.choice("pcf-quantized.kernels"));
     // The paper's thresholds .2, .5, .8 are kept; the strength is scaled so that 1 is the depth step whose
     // penumbra is as wide as the largest kernel.
@@ -111,7 +115,7 @@ class PcfQuantized final : public Technique {
   }
 
   static Status planTuned(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     auto pyramid = planBlockerPyramid(scene, plan, depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading& shading = plan.shading;

@@ -26,18 +26,19 @@ class Pcss final : public Technique {
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return mapReceiverFamilies(
-        "map/pcss.frag",
-        {range("HS_SEARCH", settings()[0], {3, 9}), range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17})},
-        {.twoDraws = true});
+    return mapReceiverFamilies("map/pcss.frag",
+                               {range("HS_SEARCH", settings()[0], {3, 9}),
+                                range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17}), subLightAxis()},
+                               {.twoDraws = true});
   }
+  SubLightUse subLightUse(const Settings&) const override { return SubLightUse::automatic; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "map/pcss.frag");
     shading.defines.push_back("HS_SEARCH " + scene.settings.text("pcss.search"));

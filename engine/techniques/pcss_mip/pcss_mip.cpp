@@ -26,18 +26,21 @@ class PcssMip final : public Technique {
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return mapReceiverFamilies(
-        "map/pcss_mip.frag",
-        {range("HS_SPREAD_KERNEL", settings()[0], {2, 9, 17}), {{{"HS_SEARCH 5"}}}, castingAxis()},
-        {.twoDraws = true});
+    return mapReceiverFamilies("map/pcss_mip.frag",
+                               {range("HS_SPREAD_KERNEL", settings()[0], {2, 9, 17}),
+                                {{{"HS_SEARCH 5"}}},
+                                castingAxis(),
+                                subLightAxis()},
+                               {.twoDraws = true});
   }
+  SubLightUse subLightUse(const Settings&) const override { return SubLightUse::automatic; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
 
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     auto pyramid = planBlockerPyramid(scene, plan, depth);
     if (!pyramid) return pyramid.error();
     ReceiverShading& shading = plan.shading;

@@ -145,7 +145,7 @@ class ShadowWidth final : public Technique {
   }
 
   static Status planSigned(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::casters);
+    const LightDepth depth = planLightDepth(scene, scene.center, plan, MapContent::casters);
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "width/shadow_width.frag");
     if (scene.fit().halfSize == glm::dvec2(0.0)) {
@@ -164,7 +164,7 @@ class ShadowWidth final : public Technique {
 
   static Status planPaper(const LightScene& scene, PassPlan& plan) {
     const bool backFaces = scene.settings.choice("shadow-width.faces") == "back";
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan,
+    const LightDepth depth = planLightDepth(scene, scene.center, plan,
                                             backFaces ? MapContent::castersFarthest : MapContent::casters);
     const int neighbours = scene.settings.choice("shadow-width.neighbours") == "3" ? 3 : 6;
     const WidthBuild build =

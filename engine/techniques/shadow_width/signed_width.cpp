@@ -222,7 +222,7 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   defines.push_back("HS_SAMPLES_T " + std::to_string(samples.y));
   std::vector<TextureRead> sources = {{"u_depthMap", depth.map}};
   if (!lastReceivers(scene).empty) {
-    const LightDepth last = planLightDepth(scene, scene.center(), plan, MapContent::lastReceivers);
+    const LightDepth last = planLightDepth(scene, scene.center, plan, MapContent::lastReceivers);
     defines.push_back("HS_LAST_RECEIVERS");
     sources.push_back({"u_lastReceivers", last.map});
     depth.contentKey = combineKeys(depth.contentKey, last.contentKey);

@@ -63,7 +63,7 @@ class Vsm final : public Technique {
 
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center(), plan, MapContent::castersAndReceivers);
+    const LightDepth depth = planLightDepth(scene, scene.center, plan, MapContent::castersAndReceivers);
     const bool bytes = scene.settings.choice("vsm.storage") == "8";
     const MapSpace& space = depth.space;
     // Beyond the casters by half their distance, or beyond the farthest receiver, both sides of the

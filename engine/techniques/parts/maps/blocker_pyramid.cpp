@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include <algorithm>
-#include <cmath>
+#include <bit>
 
 #include "base/keys.hpp"
 #include "techniques/parts/maps/filter_pass.hpp"
@@ -12,18 +11,23 @@ namespace halfshadow::techniques {
 namespace {
 /// Cells of the second source image are this much larger.
 constexpr int kReduction = 8;
+/// Per side of the finest level.
+constexpr int kFewestCells = 16;
 }  // namespace
 
 Result<BlockerPyramid> planBlockerPyramid(const LightScene& scene, PassPlan& plan, const LightDepth& depth) {
   BlockerPyramid pyramid;
   LevelAtlas atlas;
-  while (atlas.finestSide * 2 * pyramid.texelsPerCell <= depth.space.mapSize) atlas.finestSide *= 2;
-  if (atlas.finestSide * pyramid.texelsPerCell != depth.space.mapSize || atlas.finestSide < 16) {
+  const int tiles = depth.tilesPerSide();
+  pyramid.cells = depth.space.mapSize / pyramid.texelsPerCell;
+  atlas.finestSide = pyramid.cells * tiles;
+  if (depth.subLights == nullptr &&
+      (!std::has_single_bit(static_cast<unsigned>(depth.space.mapSize)) || pyramid.cells < kFewestCells)) {
     return Error{ErrorCode::invalidArgument, "map_size=" + std::to_string(depth.space.mapSize) +
                                                  ": a blocker pyramid needs a power of two of at least 64"};
   }
-  while (atlas.side(atlas.lastLevel) > 2) ++atlas.lastLevel;
-  pyramid.cells = atlas.finestSide;
+  const auto cells = [&](int level) { return pyramid.cells >> level; };
+  while (cells(atlas.lastLevel) > 2 && cells(atlas.lastLevel) % 2 == 0) ++atlas.lastLevel;
   pyramid.lastLevel = atlas.lastLevel;
 
   const auto reduction = [](int factor, const LevelImage& source, const Rect& target) {
@@ -51,11 +55,11 @@ Result<BlockerPyramid> planBlockerPyramid(const LightScene& scene, PassPlan& pla
                        .defines = depthDefines(depth.storage),
                        .source = depth.map,
                        .target = images.front().image,
-                       .sourceSize = space.mapSize,
+                       .sourceSize = depth.atlasSize,
                        .contentKey = combineKeys(depth.contentKey, 0x0cc0u),
                        .sampler = "u_depthMap",
                        .uniforms = std::move(uniforms)});
-  if (side / kReduction >= 2) {
+  if (side / kReduction >= 2 && pyramid.cells % kReduction == 0) {
     // What coarse levels are made of, so that no texel reads hundreds.
     const int small = side / kReduction;
     images.push_back(

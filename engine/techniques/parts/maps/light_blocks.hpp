@@ -31,8 +31,8 @@ void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth
                        ReceiverShading& shading);
 
 /// Defines of block_dilate.frag: bounds of cells of `cellTexels` source texels a side and of their neighbours
-/// up to `reachS` and `reachT` cells away.
-std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels);
+/// up to `reachS` and `reachT` cells away, in the same tile of an atlas.
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels, const LightDepth& depth);
 
 /// Occupied share and mean depth of cells of the map at all sizes, in one atlas.
 struct BlockerPyramid {

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/parts/maps/light_depth.hpp"
 
+#include <algorithm>
+
 #include "base/keys.hpp"
 #include "techniques/parts/maps/byte_ramp.hpp"
 #include "techniques/parts/maps/last_receivers.hpp"
@@ -84,63 +86,94 @@ PlannedDraw depthDraw(PassPlan& plan, const MapSpace& space, DepthStorage storag
 }
 }  // namespace
 
-LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPlan& plan,
-                          MapContent content) {
-  LightDepth depth;
-  depth.content = content;
-  depth.storage = depthStorageFor(scene.capabilities);
-  depth.space = makeMapSpace(view.fit, depth.storage);
+namespace {
+/// Casters as one view sees them, into its part of the atlas.
+struct DepthDraws {
+  std::span<const DrawItem> items, others, infinite;
+  DepthStorage storage = DepthStorage::texture24;
+  MapContent content = MapContent::casters;
+
+  void add(PassPlan& plan, PlannedPass& pass, const LightView& view) const {
+    const std::size_t first = pass.draws.size();
+    const MapSpace space = makeMapSpace(view.fit, storage);
+    for (const std::span<const DrawItem> drawn : {items, others}) {
+      if (!drawn.empty()) pass.draws.push_back(depthDraw(plan, space, storage, content, drawn));
+    }
+    // What is farthest is never before the near distance.
+    if (view.fit.castersBeforeNear && !keepsFarthest(content)) {
+      for (const std::span<const DrawItem> drawn : {items, others}) {
+        if (drawn.empty()) continue;
+        PlannedDraw& draw =
+            pass.draws.emplace_back(depthDraw(plan, beforeNear(space), storage, content, drawn));
+        draw.uniforms.set("u_depthOfDistance", glm::vec2(0.0f));
+        draw.state.depthRange = glm::vec2(0.0f);
+      }
+    }
+    if (!infinite.empty()) {
+      MapSpace flat = space;
+      flat.mapClipFromWorld = almostInfinitelyFar(flat.mapClipFromWorld);
+      pass.draws.push_back(depthDraw(plan, flat, storage, content, infinite));
+      // The ramp repeats at depth 1.
+      pass.draws.back().uniforms.set("u_depthOfDistance", glm::vec2(1.0f, 1e-3f));
+    }
+    for (std::size_t i = first; i < pass.draws.size(); ++i) pass.draws[i].viewport = view.rect;
+  }
+};
+
+/// All of one content key but for what the content adds.
+LightDepth planDepth(const LightScene& scene, const AtlasViews& atlas, PassPlan& plan, MapContent content) {
+  const LightView& view = atlas.views.front();
+  LightDepth depth{
+      .storage = depthStorageFor(scene.capabilities), .content = content, .atlasSize = atlas.atlasSize};
   const bool all = content == MapContent::castersAndReceivers;
-  const bool last = content == MapContent::lastReceivers;
   const bool kept = view.contentKey != 0;
   depth.contentKey =
       !kept
           ? 0
           : combineKeys(all ? view.sceneKey : view.contentKey,
                         static_cast<std::uint64_t>(depth.storage) * 4 + static_cast<std::uint64_t>(content));
-  std::span<const DrawItem> items = view.casters, infinite;
-  if (last) {
+  DepthDraws draws{.items = view.casters, .storage = depth.storage, .content = content};
+  if (content == MapContent::lastReceivers) {
     LastReceivers receivers = lastReceivers(scene);
     depth.contentKey = combineKeys(depth.contentKey, receivers.contentKey);
-    items = plan.keep(std::move(receivers.drawn));
-    infinite = plan.keep(std::move(receivers.infinite));
+    draws.items = plan.keep(std::move(receivers.drawn));
+    draws.infinite = plan.keep(std::move(receivers.infinite));
   }
+  if (all) draws.others = scene.shadowlessReceivers;
   PlannedPass pass{.name = scene.name + contentName(content) + view.name,
                    .stage = framegraph::PassStage::light,
                    .contentKey = depth.contentKey};
   pass.writes =
       depthTargets(plan,
                    {.name = pass.name,
-                    .width = view.fit.mapSize,
-                    .height = view.fit.mapSize,
+                    .width = atlas.atlasSize,
+                    .height = atlas.atlasSize,
                     .lifetime = kept ? framegraph::Lifetime::persistent : framegraph::Lifetime::transient},
                    depth.storage, keepsFarthest(content) ? 0.0f : 1.0f, depth.map);
-  const std::span<const DrawItem> others = all ? scene.shadowlessReceivers : std::span<const DrawItem>();
-  for (const std::span<const DrawItem> drawn : {items, others}) {
-    if (!drawn.empty()) pass.draws.push_back(depthDraw(plan, depth.space, depth.storage, content, drawn));
-  }
-  // What is farthest is never before the near distance.
-  if (view.fit.castersBeforeNear && !keepsFarthest(content)) {
-    for (const std::span<const DrawItem> drawn : {items, others}) {
-      if (drawn.empty()) continue;
-      PlannedDraw& draw =
-          pass.draws.emplace_back(depthDraw(plan, beforeNear(depth.space), depth.storage, content, drawn));
-      draw.uniforms.set("u_depthOfDistance", glm::vec2(0.0f));
-      draw.state.depthRange = glm::vec2(0.0f);
-    }
-  }
-  if (!infinite.empty()) {
-    MapSpace flat = depth.space;
-    flat.mapClipFromWorld = almostInfinitelyFar(flat.mapClipFromWorld);
-    pass.draws.push_back(depthDraw(plan, flat, depth.storage, content, infinite));
-    // The ramp repeats at depth 1.
-    pass.draws.back().uniforms.set("u_depthOfDistance", glm::vec2(1.0f, 1e-3f));
-  }
+  for (const LightView& each : atlas.views) draws.add(plan, pass, each);
   if (depth.storage == DepthStorage::packed16) {
     const TextureRead ramp{.sampler = "u_byteRamp", .own = addByteRamp(plan)};
     for (PlannedDraw& draw : pass.draws) draw.textures.push_back(ramp);
   }
   plan.passes.push_back(std::move(pass));
+  return depth;
+}
+}  // namespace
+
+LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPlan& plan,
+                          MapContent content) {
+  AtlasViews atlas{.views = {view}, .atlasSize = view.fit.mapSize};
+  atlas.views.front().rect = {0, 0, view.fit.mapSize, view.fit.mapSize};
+  LightDepth depth = planDepth(scene, atlas, plan, content);
+  depth.space = makeMapSpace(view.fit, depth.storage);
+  return depth;
+}
+
+LightDepth planLightDepths(const LightScene& scene, PassPlan& plan, MapContent content) {
+  if (scene.subLights == nullptr) return planLightDepth(scene, scene.center, plan, content);
+  LightDepth depth = planDepth(scene, atlasViews(scene), plan, content);
+  depth.space = makeMapSpace(scene.subLights->shared, depth.storage);
+  depth.subLights = scene.subLights;
   return depth;
 }
 
@@ -170,6 +203,7 @@ ReceiverShading mapReceiverShading(const LightScene& scene, PassPlan& plan, cons
   shading.uniforms.set("u_map", map);
   shading.uniforms.set("u_bias", bias);
   shading.uniforms.set("u_vertexPlane", plane);
+  addSubLights(depth, shading);
   return shading;
 }
 

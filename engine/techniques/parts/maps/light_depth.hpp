@@ -34,6 +34,7 @@ struct MapSpace {
   double depthUnit = 1.0;  ///< 1, or 256 without highp: shaders count depth in 1/depthUnit of the range
   double quantum = 0.0;    ///< storage step plus rasterisation error, share of the range
   double nearestCasterDepth = 0.0, farthestCasterDepth = 1.0;  ///< share of the range
+  glm::dvec2 texelsPerTangent{1.0};                            ///< along both axes
   glm::dvec2 kernelTexelsPerDepth{0.0};  ///< light side in texels per unit of depth difference, both axes
   int mapSize = 1;
 };
@@ -49,19 +50,36 @@ enum class MapContent {
 struct LightDepth {
   framegraph::ResourceId map;
   DepthStorage storage = DepthStorage::texture24;
-  MapSpace space;
+  MapSpace space;  ///< of the view, or what all views of a split light share, see planner::SubLights
   std::uint64_t contentKey = 0;
   MapContent content = MapContent::casters;
+  const planner::SubLights* subLights = nullptr;  ///< that `map` holds the maps of; null: it holds one
+  int atlasSize = 1;                              ///< texels of `map` a side
+  int tilesPerSide() const { return subLights == nullptr ? 1 : subLights->grid.tilesPerSide(); }
 };
 /// Declares the depth pass (skipped by the plan while its content key is unchanged).
 LightDepth planLightDepth(const LightScene& scene, const LightView& view, PassPlan& plan, MapContent content);
+/// The same for all that the light is seen through: one pass over an atlas of its sub-lights' maps, or the
+/// map from its centre.
+LightDepth planLightDepths(const LightScene& scene, PassPlan& plan, MapContent content);
 
 /// Defines of every shader that reads the map on this rung.
 std::vector<std::string> depthDefines(DepthStorage storage);
+
+/// Of shaders that read an image of which each sub-light's map has a tile: empty for one map.
+std::vector<std::string> tileDefines(const LightDepth& depth);
 
 /// A receiver program that samples the map: defines, textures and uniforms common to all map techniques.
 /// `fragmentFile` and technique defines are the caller's.
 ReceiverShading mapReceiverShading(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
                                    std::string fragmentFile);
+
+/// Adds to a receiver program what horizon.glsl needs.
+void addHorizon(const LightDepth& depth, ReceiverShading& shading);
+
+/// Adds to a receiver program what receiver_inputs.glsl needs of a split light; mapReceiverShading() does.
+void addSubLights(const LightDepth& depth, ReceiverShading& shading);
+/// Adds to a receiver program what horizon.glsl needs.
+void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShading& shading);
 
 }  // namespace halfshadow::techniques

@@ -13,6 +13,9 @@ ShaderAxis depthAxis();
 /// Of what the passes of this folder draw.
 std::vector<ShaderFamily> mapShaders();
 /// Of those passes, and of a visibility function that samples the map.
+/// HS_SUB_LIGHTS_U and HS_SUB_LIGHTS_V of readers of planLightDepths().
+ShaderAxis subLightAxis();
+
 std::vector<ShaderFamily> mapReceiverFamilies(const std::string& fragmentFile, std::vector<ShaderAxis> axes,
                                               ReceiverTraits traits = {});
 

@@ -65,7 +65,8 @@ MapSpace makeMapSpace(const planner::LightFit& fit, DepthStorage storage) {
   space.mapFromWorld = (mapFromLight / fit.nearDistance) * fit.lightFromWorld;
   space.mapClipFromWorld = clipFromMap * space.mapFromWorld;
   // 1/zb - 1/zr = (dr - db) / near; the light's side L spans f·L·(1/zb - 1/zr) texels.
-  space.kernelTexelsPerDepth = fit.texelsPerTangent() * (2.0 * fit.halfSize) / fit.nearDistance;
+  space.texelsPerTangent = fit.texelsPerTangent();
+  space.kernelTexelsPerDepth = space.texelsPerTangent * (2.0 * fit.halfSize) / fit.nearDistance;
   // A point light still has receivers behind casters: techniques take a width of 0 for "nothing in front".
   // Depths differ by less than 1, so this stays below a texel, the width of every technique's narrowest
   // kernel.

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "base/keys.hpp"
 #include "techniques/parts/maps/filter_pass.hpp"
@@ -19,23 +20,31 @@ constexpr int kMostBlocks = 128;
 constexpr int kReachBlocks = 4;
 
 /// Smallest and largest depth around each block at all block sizes, in one atlas: readers ask at the reach
-/// that the nearest caster leaves, and again with the answer (penumbra_bounds.glsl).
+/// that the nearest caster leaves, and again with the answer (penumbra_bounds.glsl). Of a split light, each
+/// level has a tile for each sub-light's map; blocks count in one of them.
 struct PenumbraBounds {
   framegraph::ResourceId atlas;
-  int blockTexels = 8;  ///< side of a block of the finest level
-  int blocks = 2;       ///< per side of the finest level, a power of two
-  int lastLevel = 0;    ///< of two blocks per side
+  std::optional<framegraph::ResourceId> merged;  ///< of all sub-lights' maps, laid out as of one
+  int blockTexels = 8;                           ///< side of a block of the finest level
+  int blocks = 2;                                ///< per side of the finest level
+  int lastLevel = 0;
 };
+
+/// Levels as they are for one of `tiles` x `tiles` maps.
+LevelAtlas oneTile(const LevelAtlas& atlas, int tiles) {
+  return {atlas.finestSide / tiles, atlas.lastLevel};
+}
 
 PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth) {
   PenumbraBounds bounds;
-  const int mapSize = depth.space.mapSize;
+  const int mapSize = depth.atlasSize, tiles = depth.tilesPerSide();
   while (bounds.blockTexels * kMostBlocks < mapSize) bounds.blockTexels *= 2;
-  LevelAtlas atlas;
+  LevelAtlas atlas{.finestSide = tiles};
   while (atlas.finestSide * bounds.blockTexels < mapSize) atlas.finestSide *= 2;
+  if (depth.subLights != nullptr) atlas.finestSide = mapSize / bounds.blockTexels;
   // The coarsest level's reach is the whole map.
-  while (atlas.side(atlas.lastLevel) > kReachBlocks + 1) ++atlas.lastLevel;
-  bounds.blocks = atlas.finestSide;
+  while (atlas.side(atlas.lastLevel) > tiles * (kReachBlocks + 1)) ++atlas.lastLevel;
+  bounds.blocks = atlas.finestSide / tiles;
   bounds.lastLevel = atlas.lastLevel;
 
   const std::string prefix = scene.name + " penumbra bounds ";
@@ -48,7 +57,7 @@ PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const
   framegraph::ResourceId source = depth.map;
   int sourceSize = mapSize, factor = bounds.blockTexels;
   std::vector<LevelImage> images;
-  for (int size = bounds.blocks; size >= 2 && images.size() < 2; size /= kReduction) {
+  for (int size = atlas.finestSide; size >= 2 && images.size() < 2; size /= kReduction) {
     auto defines = depthDefines(depth.storage);
     defines.push_back("HS_FACTOR " + std::to_string(factor));
     if (images.empty()) defines.push_back("HS_FROM_DEPTH");
@@ -63,6 +72,7 @@ PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const
                          .contentKey = combineKeys(depth.contentKey, static_cast<std::uint64_t>(size)),
                          .sampler = "u_source"});
     images.push_back({target, size, size, {0, 0, size, size}});
+    if (tiles > 1 && bounds.blocks % kReduction != 0) break;
     source = target;
     sourceSize = size;
     factor = kReduction;
@@ -75,15 +85,30 @@ PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const
   for (int level = 0; level <= atlas.lastLevel; ++level) {
     const int side = atlas.side(level);
     const LevelImage& image = images.back().imageWidth >= side ? images.back() : images.front();
-    rowDraws.push_back({"map/block_dilate.frag", dilationDefines(kReachBlocks, 0, image.imageWidth / side),
-                        image, atlas.rect(level)});
+    rowDraws.push_back({"map/block_dilate.frag",
+                        dilationDefines(kReachBlocks, 0, image.imageWidth / side, depth), image,
+                        atlas.rect(level)});
     levelDraws.push_back({"map/block_dilate.frag",
-                          dilationDefines(0, kReachBlocks, 1),
+                          dilationDefines(0, kReachBlocks, 1, depth),
                           {rows, atlas.width(), atlas.height(), atlas.rect(level)},
                           atlas.rect(level)});
   }
   addLevelPass(plan, prefix + "rows", rows, rowDraws, combineKeys(depth.contentKey, 0xb0bd0u));
   addLevelPass(plan, prefix + "levels", bounds.atlas, levelDraws, combineKeys(depth.contentKey, 0xb0bd1u));
+  if (depth.subLights == nullptr) return bounds;
+
+  const LevelAtlas one = oneTile(atlas, tiles);
+  bounds.merged = persistent("merged", one.width(), one.height());
+  std::vector<LevelDraw> mergedDraws;
+  for (int level = 0; level <= one.lastLevel; ++level) {
+    auto defines = tileDefines(depth);
+    defines.push_back("HS_MAPS " + std::to_string(depth.subLights->grid.count()));
+    mergedDraws.push_back({"map/block_merge.frag",
+                           std::move(defines),
+                           {bounds.atlas, atlas.width(), atlas.height(), atlas.rect(level)},
+                           one.rect(level)});
+  }
+  addLevelPass(plan, prefix + "merged", *bounds.merged, mergedDraws, combineKeys(depth.contentKey, 0xb0bd2u));
   return bounds;
 }
 
@@ -92,7 +117,9 @@ PenumbraBounds planPenumbraBounds(const LightScene& scene, PassPlan& plan, const
 void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
                        ReceiverShading& shading) {
   const PenumbraBounds bounds = planPenumbraBounds(scene, plan, depth);
-  shading.textures.push_back({.sampler = "u_blockMap", .resource = bounds.atlas});
+  shading.textures.push_back(
+      {.sampler = "u_blockMap", .resource = bounds.merged ? *bounds.merged : bounds.atlas});
+  if (bounds.merged) shading.textures.push_back({.sampler = "u_subLightBounds", .resource = bounds.atlas});
   const MapSpace& space = depth.space;
   // Half of the narrowest kernel and half a texel to its tap's centre; without highp a fragment's own place
   // is off by up to a texel.
@@ -103,6 +130,7 @@ void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth
                            space.nearestCasterDepth * space.depthUnit, 1.0 / (texelsPerBlock * kReachBlocks));
   shading.uniforms.set("u_bounds", uniform);
   shading.uniforms.set("u_penumbra", penumbra);
+  addHorizon(scene, depth, shading);
   shading.skip = preferredSkip(scene) == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
 }
 

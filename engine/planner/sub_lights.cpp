@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "planner/sub_lights.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/light_space.hpp"
+
+namespace halfshadow::planner {
+namespace {
+// Sides are this, the next or the one after, times a power of two: whatever is halved from them down to five
+// cells or less divides evenly.
+constexpr int kCoarsestCells = 4, kMostCoarsestCells = 6;
+// Pyramids over a map begin with cells of 4 texels and need a few levels.
+constexpr int kSmallestMap = 64;
+
+glm::dmat4 translated(const glm::dvec2& offset) {
+  glm::dmat4 matrix(1.0);
+  matrix[3] = glm::dvec4(-offset, 0.0, 1.0);
+  return matrix;
+}
+}  // namespace
+
+int SubLightGrid::tilesPerSide() const {
+  int side = 1;
+  while (side * side < count()) ++side;
+  return side;
+}
+
+SubLightGrid subLightGrid(const scene::AreaLight& light, int perSide) {
+  const double u = glm::length(light.halfU), v = glm::length(light.halfV);
+  const double longer = std::max(u, v);
+  if (!(longer > 0.0)) return {};
+  const auto along = [&](double side) {
+    return std::clamp(static_cast<int>(std::lround(perSide * side / longer)), 1, perSide);
+  };
+  return {along(u), along(v)};
+}
+
+int subLightMapSize(const SubLightGrid& grid, int mapSize) {
+  if (grid.whole()) return mapSize;
+  const int most = mapSize / grid.tilesPerSide();
+  if (most < kSmallestMap) return 0;
+  int step = 1;
+  while (step * 2 * kCoarsestCells <= most) step *= 2;
+  return std::min(most / step, kMostCoarsestCells) * step;
+}
+
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
+                       const SubLightGrid& grid, int mapSize) {
+  const CasterShape all{.pointsWorld = casterPointsWorld};
+  LightFitter fitter;
+  return fitSubLights(light, {&all, 1}, grid, mapSize, fitter);
+}
+
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                       const SubLightGrid& grid, int mapSize, LightFitter& fitter) {
+  const LightSpace space = lightSpace(light);
+  const auto inPlane = [&](const glm::dvec3& vector) {
+    return glm::dvec2(glm::dot(space.axisX, vector), glm::dot(space.axisY, vector));
+  };
+  SubLights lights{.grid = grid};
+  const glm::dvec2 halfU = inPlane(light.halfU), halfV = inPlane(light.halfV);
+  const glm::dvec2 shareU = halfU / static_cast<double>(grid.alongU);
+  const glm::dvec2 shareV = halfV / static_cast<double>(grid.alongV);
+  lights.stepU = 2.0 * shareU;
+  lights.stepV = 2.0 * shareV;
+  const glm::dvec2 spread = glm::abs(halfU - shareU) + glm::abs(halfV - shareV);
+  lights.shared = fitter.fit(
+      light, casters, {.mapSize = subLightMapSize(grid, mapSize), .nearShare = 0.0, .centerSpread = spread});
+  if (lights.shared.empty) return lights;
+  lights.shared.halfSize = glm::abs(shareU) + glm::abs(shareV);
+  lights.alignedDistance = lights.shared.farDistance;
+  for (int j = 0; j < grid.alongV; ++j) {
+    for (int i = 0; i < grid.alongU; ++i) {
+      const glm::dvec2 center =
+          (i - 0.5 * (grid.alongU - 1)) * lights.stepU + (j - 0.5 * (grid.alongV - 1)) * lights.stepV;
+      LightFit& fit = lights.fits.emplace_back(lights.shared);
+      fit.lightFromWorld = translated(center) * fit.lightFromWorld;
+      fit.tangentLow -= center / lights.alignedDistance;
+      fit.tangentHigh -= center / lights.alignedDistance;
+    }
+  }
+  return lights;
+}
+
+SubLightChoice chooseSubLights(const SubLightNeeds& needs) {
+  (void)needs;
+  return {1, ""};
+}
+
+}  // namespace halfshadow::planner

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+/// @file
+/// A rectangle light as several smaller ones, each with a map of its own: a map sees its casters from one
+/// point, and the error that this makes falls faster than the light's side. Pure data, double precision.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "planner/light_fit.hpp"
+#include "scene/light.hpp"
+
+namespace halfshadow::planner {
+
+/// How many sub-lights a light is split into along halfU and along halfV.
+struct SubLightGrid {
+  int alongU = 1, alongV = 1;
+  int count() const { return alongU * alongV; }
+  bool whole() const { return count() == 1; }
+  /// Their maps stand in rows of a square.
+  int tilesPerSide() const;
+  bool operator==(const SubLightGrid&) const = default;
+};
+
+inline constexpr int kMostSubLightsPerSide = 4;
+
+/// `perSide` along the light's longer side, and along the other so many that they are about as wide as long.
+SubLightGrid subLightGrid(const scene::AreaLight& light, int perSide);
+
+/// Side in texels of a sub-light's map when all of the grid share `mapSize` texels a side: as many as there
+/// are, or a few less, so that they can be halved several times; 0 when that leaves too few to be halved.
+int subLightMapSize(const SubLightGrid& grid, int mapSize);
+
+/// What a split light is seen through. All sub-lights lie in one plane and their maps cover one window whose
+/// places agree at one distance; hence a point at z that the light's centre sees at tangents t lies, in the
+/// map of a sub-light at c, at t + c (1 / alignedDistance - 1 / z).
+struct SubLights {
+  SubLightGrid grid;
+  /// From the light's centre, as if there were a sub-light: halfSize is of one of them, mapSize of its map.
+  LightFit shared;
+  double alignedDistance = 1.0;
+  /// Light space, from a sub-light's centre to that of the next along halfU and halfV.
+  glm::dvec2 stepU{0.0}, stepV{0.0};
+  std::vector<LightFit> fits;  ///< each from its own centre; along halfU first, then along halfV
+};
+
+/// `empty` fits when no caster lies before the light. `fitter`: of this light's splits alone.
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                       const SubLightGrid& grid, int mapSize, LightFitter& fitter);
+/// The same once.
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
+                       const SubLightGrid& grid, int mapSize);
+
+/// What a number of sub-lights is decided from.
+struct SubLightNeeds {
+  double widestPenumbraTexels = 0.0;  ///< in one map of mapSize texels
+  int mapSize = 1024;
+};
+struct SubLightChoice {
+  int perSide = 1;
+  std::string reason;  ///< for the frame's report, begins with a code
+};
+/// As many as make the penumbrae that are left over wide enough to be filtered.
+SubLightChoice chooseSubLights(const SubLightNeeds& needs);
+
+}  // namespace halfshadow::planner

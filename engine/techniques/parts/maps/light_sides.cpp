@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+
+#include "planner/light_space.hpp"
+#include "techniques/parts/maps/light_depth.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// How far the ends of a vector in the light's plane are apart in the map, per unit of depth: tangents differ
+/// by c (1 / z - 1 / z'), of which near (1 / z - 1 / z') is a difference of depths.
+glm::dvec2 texelsPerDepth(const MapSpace& space, const glm::dvec2& vectorLight) {
+  return space.texelsPerTangent * vectorLight / (space.nearDistance * space.depthUnit);
+}
+}  // namespace
+
+std::vector<std::string> tileDefines(const LightDepth& depth) {
+  if (depth.subLights == nullptr) return {};
+  return {"HS_TILES " + std::to_string(depth.tilesPerSide())};
+}
+
+void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
+  if (depth.subLights == nullptr) return;
+  const planner::SubLights& split = *depth.subLights;
+  const MapSpace& space = depth.space;
+  shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(split.grid.alongU));
+  shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(split.grid.alongV));
+  const glm::dvec2 stepU = texelsPerDepth(space, split.stepU), stepV = texelsPerDepth(space, split.stepV);
+  const glm::dvec2 spread =
+      glm::abs(stepU) * (0.5 * (split.grid.alongU - 1)) + glm::abs(stepV) * (0.5 * (split.grid.alongV - 1));
+  shading.uniforms.set("u_subLightStep", glm::vec4(stepU, stepV));
+  shading.uniforms.set("u_subLights",
+                       glm::vec4((1.0 - space.nearDistance / split.alignedDistance) * space.depthUnit,
+                                 std::max(spread.x, spread.y), 1.0 / depth.atlasSize, depth.tilesPerSide()));
+}
+
+void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShading& shading) {
+  const planner::LightSpace space = planner::lightSpace(scene.light);
+  const auto side = [&](const glm::dvec3& half) {
+    const glm::dvec2 inPlane(glm::dot(space.axisX, half), glm::dot(space.axisY, half));
+    return texelsPerDepth(depth.space, 2.0 * inPlane);
+  };
+  shading.uniforms.set("u_lightSides", glm::vec4(side(scene.light.halfU), side(scene.light.halfV)));
+  shading.itemUniforms = [](const DrawItem& item, device::UniformList& uniforms) {
+    uniforms.set("u_receiver", glm::vec4(item.casts && item.closed ? 1.0f : 0.0f, 0, 0, 0));
+  };
+}
+
+}  // namespace halfshadow::techniques

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Share of a light above the horizon of the fragment's facet. What is below it, a closed caster hides itself: the way
+// there begins inside. Maps cannot tell, since there the caster is thinner than any bias.
+uniform HS_HIGHP vec4 u_lightSides;  // texels per unit of depth from one side of the light to the other, xy along u, zw along v
+uniform HS_HIGHP vec4 u_receiver;    // x: 1 for a closed caster, else 0
+
+// above: how far its centre is above the horizon, 1 for a light that faces the facet's own gradient; share: of the
+// light's sides. An area on one side of a straight line.
+float hs_shareAbove(HS_HIGHP vec2 gradient, HS_HIGHP float above, HS_HIGHP vec2 share) {
+  HS_HIGHP vec2 reach = abs(vec2(dot(gradient, u_lightSides.xy), dot(gradient, u_lightSides.zw))) * share;
+  HS_HIGHP float longer = max(max(reach.x, reach.y), 1e-3);
+  HS_HIGHP float ratio = max(min(reach.x, reach.y) / longer, 1e-3);
+  HS_HIGHP float size = abs(above) / longer;
+  HS_HIGHP float tail = max(0.5 + 0.5 * ratio - size, 0.0);
+  HS_HIGHP float part = size <= 0.5 - 0.5 * ratio ? 0.5 + size : 1.0 - tail * tail / (2.0 * ratio);
+  return above < 0.0 ? 1.0 - part : part;
+}
+
+// Of the whole light.
+float hs_lightAbove() {
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 gradient = hs_centerGradient;
+#else
+  HS_HIGHP vec2 gradient = hs_gradient;
+#endif
+  return u_receiver.x > 0.5 ? hs_shareAbove(gradient, 1.0, vec2(1.0)) : 1.0;
+}
+
+#ifdef HS_SUB_LIGHTS_U
+// Of the sub-light that was entered.
+float hs_subLightAbove() {
+  return u_receiver.x > 0.5 ? hs_shareAbove(hs_centerGradient, hs_turned,
+                                            vec2(1.0 / float(HS_SUB_LIGHTS_U), 1.0 / float(HS_SUB_LIGHTS_V)))
+                            : 1.0;
+}
+#endif
