@@ -32,9 +32,9 @@ class Engine {
   Outcome removeObject(ObjectId id);
 
   /// Up to kMaxLights lights. One with the same values as a light before is that light, wherever it stands in
-  /// the list, and nothing of it is remade; one with other values is the light that stood in its place, moved,
-  /// or else a new one. Reports name a light by the lowest number that was free when it was new: "light 0".
-  /// Errors: invalidLight, invalidArgument.
+  /// the list, and nothing of it is remade; one with other values is the light that stood in its place,
+  /// moved, or else a new one. Reports name a light by the lowest number that was free when it was new:
+  /// "light 0". Errors: invalidLight, invalidArgument.
   Outcome setLights(const LightDesc* lights, std::size_t count);
   /// Errors: unknownTechnique, capabilityMissing (naming the capability).
   Outcome setTechnique(const char* id);
@@ -45,10 +45,10 @@ class Engine {
   /// shaderFailed, contextLost, driverFault, outOfMemory. On error nothing was drawn to the target, or it
   /// holds unshadowed receivers; never garbage.
   ///
-  /// When nothing has changed since the last frame, neither `desc` nor anything that was set, the engine's own
-  /// texture still holds the picture: no OpenGL call is made. A framebuffer of the host's may not hold it any
-  /// more, so the receivers are drawn into it again, with all else as it is. With Timing::perPass everything
-  /// that a moved camera would redraw is drawn.
+  /// When nothing has changed since the last frame, neither `desc` nor anything that was set, the engine's
+  /// own texture still holds the picture: no OpenGL call is made. A framebuffer of the host's may not hold it
+  /// any more, so the receivers are drawn into it again, with all else as it is. With Timing::perPass
+  /// everything that a moved camera would redraw is drawn.
   Outcome render(const RenderDesc& desc);
   /// What the last frame did, put together when it is asked for; empty after an error.
   FrameReport report();
