@@ -34,11 +34,11 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 width, float taps) {
 // until the region ends before the foot; regions wider than that let light in along it.
 HS_HIGHP vec2 hs_searchBlockers() {
   HS_HIGHP float asked = hs_widestGap;
-  HS_HIGHP vec2 found = hs_searchTaps(u_penumbra.xy * asked, float(HS_SEARCH * HS_SEARCH));
+  HS_HIGHP vec2 found = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH * HS_SEARCH));
   for (int i = 0; i < 4; ++i) {
     if (found.x <= 0.0 || found.y > 0.75 * asked) break;
     asked = found.y;
-    HS_HIGHP vec2 nearer = hs_searchTaps(u_penumbra.xy * asked, float(HS_SEARCH * HS_SEARCH));
+    HS_HIGHP vec2 nearer = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH * HS_SEARCH));
     if (nearer.x <= 0.0) break;
     found = nearer;
   }
