@@ -8,6 +8,7 @@
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
 #include "map/horizon.glsl"
+#include "map/spread_places.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/blocker_search.glsl"
