@@ -80,6 +80,10 @@ ExitStatus compare(const Arguments& arguments) {
     if (!(v > metrics::kPenumbraLow && v < metrics::kPenumbraHigh)) penumbraWeights[i] = 0.0f;
   }
   const auto penumbra = metrics::weightedErrorStatistics(measured->pixels, truth->pixels, penumbraWeights);
+  std::vector<std::uint8_t> inPenumbra(penumbraWeights.size());
+  std::ranges::transform(penumbraWeights, inPenumbra.begin(), [](float weight) { return weight > 0.0f; });
+  const double roughness =
+      metrics::roughness(measured->pixels, truth->pixels, inPenumbra, static_cast<std::size_t>(truth->width));
   if (printsText(arguments.json)) {
     print({.header = {"pixels", "count", "mae", "rmse", "bias", "p99", "max", "share > 2/255"},
            .rows = {row(arguments.weights.empty() ? "all" : "weighted", all), row("penumbra", penumbra)}});
@@ -87,7 +91,10 @@ ExitStatus compare(const Arguments& arguments) {
   const Json json{{"measured", arguments.measured},
                   {"truth", arguments.truth},
                   {"size", {truth->width, truth->height}},
-                  {"error", {{"all", measure::toJson(all)}, {"penumbra", measure::toJson(penumbra)}}}};
+                  {"error",
+                   {{"all", measure::toJson(all)},
+                    {"penumbra", measure::toJson(penumbra)},
+                    {"penumbra_roughness", roughness}}}};
   const Status written = writeJson(arguments.json, json);
   return written ? kDone : fail(written.error());
 }

@@ -14,9 +14,11 @@ constexpr double kLightStep = 1e-7;
 
 ErrorSet errorsOn(std::span<const float> measured, const Truth& truth,
                   std::span<const std::uint8_t> selected) {
+  const std::vector<std::uint8_t> penumbra = metrics::penumbraMask(truth.visibility, selected);
   return {.receiver = metrics::errorStatistics(measured, truth.visibility, selected),
-          .penumbra = metrics::errorStatistics(measured, truth.visibility,
-                                               metrics::penumbraMask(truth.visibility, selected))};
+          .penumbra = metrics::errorStatistics(measured, truth.visibility, penumbra),
+          .penumbraRoughness = metrics::roughness(measured, truth.visibility, penumbra,
+                                                  static_cast<std::size_t>(truth.width))};
 }
 
 std::vector<std::uint8_t> ofKind(const Truth& truth, reference::ReceiverKind kind) {

@@ -39,6 +39,7 @@ Result<Truth> traceTruth(const scene::SceneDescription& scene, int width, int he
 
 struct ErrorSet {
   metrics::ErrorStatistics receiver, penumbra;
+  double penumbraRoughness = 0.0;  ///< metrics::roughness
 };
 
 struct TimeStatistics {

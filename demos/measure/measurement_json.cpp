@@ -9,7 +9,9 @@ Json vectorJson(const glm::dvec3& vector) {
 }
 
 Json toJson(const ErrorSet& errors) {
-  return {{"receiver", measure::toJson(errors.receiver)}, {"penumbra", measure::toJson(errors.penumbra)}};
+  return {{"receiver", measure::toJson(errors.receiver)},
+          {"penumbra", measure::toJson(errors.penumbra)},
+          {"penumbra_roughness", errors.penumbraRoughness}};
 }
 
 Json toJson(const TimeStatistics& time) {

@@ -43,6 +43,8 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
     contentKey_ = inputs.contentKey;
     mapSize_ = mapSize;
   }
+  // Who names a number wants its accuracy; `auto` weighs what it costs.
+  split_.oneSearch = asked == "auto" && grid.hasMiddle();
   return split_.shared.empty ? nullptr : &split_;
 }
 

@@ -12,6 +12,11 @@ namespace {
 constexpr double kTwoOf255 =
     2.0 / 255.0 + 1e-6;  // 1e-6: an exact difference of two 8-bit steps is not "over"
 
+double errorOf(float measured, float truth) {
+  if (!std::isfinite(measured)) return truth >= 0.5f ? -1.0 : 1.0;
+  return static_cast<double>(measured) - static_cast<double>(truth);
+}
+
 struct WeightedError {
   double size, weight;
 };
@@ -21,11 +26,8 @@ class Accumulator {
   explicit Accumulator(std::size_t expectedPixels) { sizes_.reserve(expectedPixels); }
 
   void add(float measured, float truth, double weight) {
-    double error = static_cast<double>(measured) - static_cast<double>(truth);
-    if (!std::isfinite(measured)) {
-      error = truth >= 0.5f ? -1.0 : 1.0;
-      ++result_.nanPixels;
-    }
+    const double error = errorOf(measured, truth);
+    if (!std::isfinite(measured)) ++result_.nanPixels;
     const double size = std::abs(error);
     result_.mae += weight * size;
     result_.rmse += weight * error * error;
@@ -86,6 +88,20 @@ ErrorStatistics weightedErrorStatistics(std::span<const float> measured, std::sp
     if (weights[i] > 0.0f) accumulator.add(measured[i], truth[i], weights[i]);
   }
   return accumulator.finished();
+}
+
+double roughness(std::span<const float> measured, std::span<const float> truth,
+                 std::span<const std::uint8_t> selected, std::size_t width) {
+  assert(measured.size() == truth.size() && measured.size() == selected.size() && width > 0);
+  double sum = 0;
+  std::size_t pairs = 0;
+  for (std::size_t i = 1; i < selected.size(); ++i) {
+    if (i % width == 0 || !selected[i] || !selected[i - 1]) continue;
+    const double difference = errorOf(measured[i], truth[i]) - errorOf(measured[i - 1], truth[i - 1]);
+    sum += difference * difference;
+    ++pairs;
+  }
+  return pairs > 0 ? std::sqrt(sum / static_cast<double>(pairs)) : 0.0;
 }
 
 std::vector<std::uint8_t> penumbraMask(std::span<const float> truth, std::span<const std::uint8_t> receiver) {

@@ -40,6 +40,13 @@ ErrorStatistics errorStatistics(std::span<const float> measured, std::span<const
 ErrorStatistics weightedErrorStatistics(std::span<const float> measured, std::span<const float> truth,
                                         std::span<const float> weights);
 
+/// How uneven an error is from pixel to pixel: root of the mean square of its difference between neighbours
+/// in a row, over all pairs whose pixels are both selected; 0 without pairs. A smooth error counts little,
+/// rings and single specks of the same size count whole. Spans as above, in rows of `width` pixels; what is
+/// NaN or infinite counts as above.
+double roughness(std::span<const float> measured, std::span<const float> truth,
+                 std::span<const std::uint8_t> selected, std::size_t width);
+
 /// 1 where `receiver` is not 0 and kPenumbraLow < truth < kPenumbraHigh, else 0. Same length for both spans.
 std::vector<std::uint8_t> penumbraMask(std::span<const float> truth, std::span<const std::uint8_t> receiver);
 

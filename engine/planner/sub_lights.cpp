@@ -14,6 +14,9 @@ namespace {
 constexpr int kCoarsestCells = 4, kMostCoarsestCells = 6;
 // Pyramids over a map begin with cells of 4 texels and need a few levels.
 constexpr int kSmallestMap = 64;
+// Texels, from which on a penumbra is better seen through nine maps of a third: a sub-light leaves a ninth of
+// them.
+constexpr double kWorthSplitting = 60.0;
 
 glm::dmat4 translated(const glm::dvec2& offset) {
   glm::dmat4 matrix(1.0);
@@ -64,19 +67,20 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
   const glm::dvec2 halfU = inPlane(light.halfU), halfV = inPlane(light.halfV);
   const glm::dvec2 shareU = halfU / static_cast<double>(grid.alongU);
   const glm::dvec2 shareV = halfV / static_cast<double>(grid.alongV);
+  lights.halfSize = glm::abs(shareU) + glm::abs(shareV);
   lights.stepU = 2.0 * shareU;
   lights.stepV = 2.0 * shareV;
   const glm::dvec2 spread = glm::abs(halfU - shareU) + glm::abs(halfV - shareV);
   lights.shared = fitter.fit(
       light, casters, {.mapSize = subLightMapSize(grid, mapSize), .nearShare = 0.0, .centerSpread = spread});
   if (lights.shared.empty) return lights;
-  lights.shared.halfSize = glm::abs(shareU) + glm::abs(shareV);
   lights.alignedDistance = lights.shared.farDistance;
   for (int j = 0; j < grid.alongV; ++j) {
     for (int i = 0; i < grid.alongU; ++i) {
       const glm::dvec2 center =
           (i - 0.5 * (grid.alongU - 1)) * lights.stepU + (j - 0.5 * (grid.alongV - 1)) * lights.stepV;
       LightFit& fit = lights.fits.emplace_back(lights.shared);
+      fit.halfSize = lights.halfSize;
       fit.lightFromWorld = translated(center) * fit.lightFromWorld;
       fit.tangentLow -= center / lights.alignedDistance;
       fit.tangentHigh -= center / lights.alignedDistance;
@@ -86,8 +90,12 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
 }
 
 SubLightChoice chooseSubLights(const SubLightNeeds& needs) {
-  (void)needs;
-  return {1, ""};
+  const auto texels = std::to_string(std::lround(needs.widestPenumbraTexels));
+  if (needs.widestPenumbraTexels < kWorthSplitting)
+    return {1, "penumbra-narrow: the widest is " + texels +
+                   " texels wide, and a sub-light's map would be coarser"};
+  return {3, "penumbra-wide: the widest is " + texels +
+                 " texels wide in one map, which sees all of it from one point of the light"};
 }
 
 }  // namespace halfshadow::planner

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Smallest and largest depth of HS_FACTOR x HS_FACTOR source texels: 16 bits each, rounded outward.
-// First level (HS_FROM_DEPTH): reads the depth map; further levels read this shader's own output.
+// First level (HS_FROM_DEPTH): reads the depth map; further levels read this shader's own output. HS_MAPS: over as many
+// maps, which stand in rows of HS_TILES.
 #include "map/depth_storage.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
@@ -41,9 +42,8 @@ vec4 hs_packBounds(HS_Bounds b) {
 }
 #endif
 
-void main() {
-  // Centre of the first source texel of the block.
-  HS_HIGHP vec2 first = (floor(v_uv * u_sourceSize.z) * float(HS_FACTOR) + 0.5) * u_sourceSize.y;
+// first: centre of the block's first source texel, as texture coordinates.
+HS_Bounds hs_blockBounds(HS_HIGHP vec2 first) {
   HS_Bounds bounds = hs_bounds(texture2D(u_source, first));
   HS_HIGHP vec2 offset = vec2(0.0);
   for (int i = 1; i < HS_FACTOR * HS_FACTOR; ++i) {
@@ -52,5 +52,20 @@ void main() {
     offset += wrapped * vec2(-float(HS_FACTOR), 1.0);
     bounds = hs_merge(bounds, hs_bounds(texture2D(u_source, first + offset * u_sourceSize.y)));
   }
+  return bounds;
+}
+
+void main() {
+  HS_HIGHP vec2 first = (floor(v_uv * u_sourceSize.z) * float(HS_FACTOR) + 0.5) * u_sourceSize.y;
+  HS_Bounds bounds = hs_blockBounds(first);
+#ifdef HS_MAPS
+  HS_HIGHP vec2 tile = vec2(0.0);
+  for (int i = 1; i < HS_MAPS; ++i) {
+    tile.x += 1.0;
+    float wrapped = step(float(HS_TILES) - 0.5, tile.x);
+    tile += wrapped * vec2(-float(HS_TILES), 1.0);
+    bounds = hs_merge(bounds, hs_blockBounds(first + tile * (1.0 / float(HS_TILES))));
+  }
+#endif
   gl_FragColor = (hs_packBounds(bounds) + 0.25) / 255.0;
 }

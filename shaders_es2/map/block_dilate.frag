@@ -15,24 +15,12 @@ float hs_lexicographicLess(vec2 a, vec2 b) {
   return step(0.5, 2.0 * order.x + order.y);
 }
 
-#ifdef HS_TILES
-HS_HIGHP vec2 hs_lowest, hs_highest;  // texels of the tile, one of HS_TILES x HS_TILES, that is written
-#else
-#define hs_lowest vec2(0.0)
-#define hs_highest vec2(u_sourceRect.z - 1.0)
-#endif
-
 vec4 hs_bytes(HS_HIGHP vec2 texel) {
-  HS_HIGHP vec2 inside = clamp(texel, hs_lowest, hs_highest);
+  HS_HIGHP vec2 inside = clamp(texel, vec2(0.0), vec2(u_sourceRect.z - 1.0));
   return floor(texture2D(u_source, (u_sourceRect.xy + inside + 0.5) * u_sourceScale.xy) * 255.0 + 0.5);
 }
 
 void main() {
-#ifdef HS_TILES
-  HS_HIGHP float side = floor(u_sourceRect.z / float(HS_TILES) + 0.5);
-  hs_lowest = floor(v_uv * float(HS_TILES)) * side;
-  hs_highest = hs_lowest + side - 1.0;
-#endif
   HS_HIGHP vec2 reach = vec2(float(HS_REACH_S), float(HS_REACH_T));
   HS_HIGHP vec2 first = (floor(v_uv * u_sourceRect.w) - reach) * float(HS_CELL);
   vec4 result = hs_bytes(first);

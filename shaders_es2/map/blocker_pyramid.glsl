@@ -70,7 +70,7 @@ HS_HIGHP vec2 hs_blockersAround(HS_HIGHP vec2 widthTexels) {
 // a nearer caster at the rim makes it wide without being in the way, and so does the upper part of a wall at whose foot
 // the fragment lies.
 HS_HIGHP float hs_meanGap() {
-  HS_HIGHP vec2 around = hs_blockersAround(u_penumbra.xy * hs_widestGap);
+  HS_HIGHP vec2 around = hs_blockersAround(hs_kernel * hs_widestGap);
   if (around.x <= 0.0) return -1.0;
   HS_HIGHP float gap = around.y / around.x;
   HS_HIGHP float part = gap / hs_widestGap;
@@ -79,7 +79,7 @@ HS_HIGHP float hs_meanGap() {
   for (int i = 0; i < 4; ++i) {
     HS_HIGHP float again = clamp(3.4 - 4.0 * part, 0.0, 1.0);
     if (again <= 0.0) break;
-    HS_HIGHP vec2 nearer = hs_blockersAround(u_penumbra.xy * gap);
+    HS_HIGHP vec2 nearer = hs_blockersAround(hs_kernel * gap);
     if (nearer.x <= 0.0) break;
     HS_HIGHP float next = mix(gap, nearer.y / nearer.x, again * min(10.0 * nearer.x, 1.0));
     part = next / gap;

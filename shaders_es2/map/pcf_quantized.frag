@@ -7,8 +7,8 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
-#include "map/sub_lights.glsl"
 #include "map/horizon.glsl"
+#include "map/spread_places.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
@@ -19,10 +19,8 @@
 uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band
 uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
 
-// Sides of the receiver's band in texels, or -1: lit.
-HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
-  side = 1.0;
-  HS_HIGHP float widest = max(u_penumbra.x, u_penumbra.y);
+HS_HIGHP vec2 hs_penumbraWidth() {
+  HS_HIGHP float widest = max(hs_kernel.x, hs_kernel.y);
 #ifdef HS_CASTING_RECEIVER
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
   HS_HIGHP vec2 found = hs_searchBlockers();
@@ -33,16 +31,13 @@ HS_HIGHP vec2 hs_bandWidth(out HS_HIGHP float side) {
   if (width < 0.0) return vec2(-1.0);
 #endif
   HS_HIGHP float band = clamp(floor((log2(max(width, 0.01)) - u_bands.x) * u_bands.y + 0.5), 0.0, u_bands.z);
-  width = exp2(u_bands.x + band / u_bands.y);
-  // A texel a tap: more taps than that read the same texels again.
-  side = width < u_kernels.x ? u_kernels.x : (width < u_kernels.y ? u_kernels.y : u_kernels.z);
-  return u_penumbra.xy * (width / widest);
+  return hs_kernel * (exp2(u_bands.x + band / u_bands.y) / widest);
 }
 
-float hs_filteredVisibility() {
-  HS_HIGHP float side;
-  HS_HIGHP vec2 width = hs_bandWidth(side);
-  if (width.x < 0.0) return 1.0;
+float hs_filter(HS_HIGHP vec2 width) {
+  // A texel a tap: more taps than that read the same texels again.
+  HS_HIGHP float widest = max(width.x, width.y);
+  HS_HIGHP float side = widest < u_kernels.x ? u_kernels.x : (widest < u_kernels.y ? u_kernels.y : u_kernels.z);
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   return hs_spreadSum(max(width, vec2(1.0)), side, bias);
 }

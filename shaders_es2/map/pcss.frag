@@ -7,18 +7,22 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
-#include "map/sub_lights.glsl"
 #include "map/horizon.glsl"
+#include "map/spread_places.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/blocker_search.glsl"
 
-float hs_filteredVisibility() {
+HS_HIGHP vec2 hs_penumbraWidth() {
   HS_HIGHP vec2 found = hs_searchBlockers();
-  if (found.x <= 0.0) return 1.0;
-  if (found.x >= 1.0) return 0.0;
-  return hs_pcfSpread(max(u_penumbra.xy * found.y, vec2(1.0)));
+  if (found.x <= 0.0) return vec2(-1.0);
+#ifndef HS_SUB_LIGHTS_U
+  if (found.x >= 1.0) return vec2(-2.0);
+#endif
+  return hs_kernel * found.y;
 }
+
+float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(1.0))); }
 #include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -13,49 +13,49 @@ uniform HS_HIGHP vec4 u_bounds;
 // w: 1 / reach of the finest level in texels
 uniform HS_HIGHP vec4 u_penumbra;
 
-#ifdef HS_SUB_LIGHTS_U
-uniform HS_HIGHP sampler2D u_subLightBounds;  // of each sub-light's map alone; u_blockMap holds them merged
-#endif
-
-// Depth between the fragment and the nearest caster that can block it, depth units; set by hs_maskClass() and
-// hs_subLightClass().
+// Depth between the fragment and the nearest caster that can block it, depth units; set by hs_maskClass().
 HS_HIGHP float hs_widestGap = 0.0;
+// Sides, in texels per unit of depth, of what is filtered: the light's or a sub-light's.
+HS_HIGHP vec2 hs_kernel;
 
 // The level whose answer holds all texels within `reach`, and some more: each block's and those of four to each side.
 HS_HIGHP float hs_boundsLevel(HS_HIGHP float reach) {
   return clamp(ceil(log2(max(reach * u_penumbra.w, 1.0))), 0.0, u_bounds.z);
 }
 
-HS_HIGHP vec4 hs_boundsAround(bool own, HS_HIGHP float level) {
+HS_HIGHP vec4 hs_boundsAround(HS_HIGHP float level) {
   HS_HIGHP float side = floor(u_bounds.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 block = clamp(floor(hs_texel * (side * u_bounds.y)), 0.0, side - 1.0);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_bounds.x, u_bounds.x - 2.0 * side);
   HS_COUNT(1);
-#ifdef HS_SUB_LIGHTS_U
-  if (own) {
-    HS_HIGHP vec2 texel = origin * u_subLights.w + hs_tile * side + block + 0.5;
-    return floor(texture2D(u_subLightBounds, texel * (vec2(2.0 / 3.0, 1.0) / (u_bounds.x * u_subLights.w))) * 255.0 + 0.5);
-  }
-#endif
   return floor(texture2D(u_blockMap, (origin + block + 0.5) * (vec2(2.0 / 3.0, 1.0) / u_bounds.x)) * 255.0 + 0.5);
 }
 
 // 1: every tap is lit, 0: every tap is shadowed, -1: the filter decides. Both bounds are rounded outward.
-// own: of the sub-light's map that was entered alone; farther: texels by which more than its kernel is looked at.
-float hs_classWithin(bool own, HS_HIGHP float farther) {
+// Of a split light the bounds hold all maps around one place: the kernel is a sub-light's, and wider by what the
+// fragment's places in the maps are apart.
+float hs_maskClass() {
+  if (hs_lightMisses) return 1.0;
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float bias = u_bias.x + u_bias.y * slope;
-  HS_HIGHP float halfWidth = 0.5 * max(u_penumbra.x, u_penumbra.y);
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 kernel = u_penumbra.xy * u_subLightShare.xy;
+  HS_HIGHP float apart = abs(hs_receiverValue - u_subLights.x) * u_subLights.y + u_bounds.w;
+#else
+  HS_HIGHP vec2 kernel = u_penumbra.xy;
+  HS_HIGHP float apart = u_bounds.w;
+#endif
+  HS_HIGHP float halfWidth = 0.5 * max(kernel.x, kernel.y);
   hs_widestGap = hs_receiverValue - u_penumbra.z;
   HS_HIGHP float gapHigh = 0.0;
   HS_HIGHP float reach = 0.0;
   HS_HIGHP float asked = -1.0;
   for (int i = 0; i < 2; ++i) {
-    reach = halfWidth * hs_widestGap + u_bounds.w + farther;
+    reach = halfWidth * hs_widestGap + apart;
     HS_HIGHP float level = hs_boundsLevel(reach);
     if (level == asked) break;
     asked = level;
-    HS_HIGHP vec4 bytes = hs_boundsAround(own, level);
+    HS_HIGHP vec4 bytes = hs_boundsAround(level);
 #ifdef HS_DEPTH_PACKED16
     vec4 difference = bytes - vec4(hs_receiver, hs_receiver);
     HS_HIGHP float gapLow = difference.x + difference.y * (1.0 / 256.0);
@@ -69,14 +69,4 @@ float hs_classWithin(bool own, HS_HIGHP float farther) {
     hs_widestGap = min(hs_widestGap, -gapLow);
   }
   return gapHigh < -bias - slope * reach ? 0.0 : -1.0;
-}
-
-// Of the whole light: with sub-lights, of all their maps around the place that its centre sees.
-float hs_maskClass() {
-  if (hs_lightMisses) return 1.0;
-#ifdef HS_SUB_LIGHTS_U
-  return hs_classWithin(false, abs(hs_receiverValue - u_subLights.x) * u_subLights.y);
-#else
-  return hs_classWithin(false, 0.0);
-#endif
 }

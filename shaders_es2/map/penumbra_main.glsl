@@ -1,26 +1,55 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Entry points of filters that follow the penumbra: bounds around the fragment know where none is needed.
-// Needs sub_lights.glsl, horizon.glsl, penumbra_bounds.glsl, and hs_filteredVisibility() from the includer.
-float hs_visibility() {
-#ifdef HS_SUB_LIGHTS_U
-  float above = hs_subLightAbove();
-  if (above <= 0.0) return 0.0;
-  float known = hs_classWithin(true, 0.0);
-  return above * (known > -0.5 ? known : hs_filteredVisibility());
-#else
-  return hs_lightAbove() * hs_filteredVisibility();
-#endif
-}
-
+// Entry points of filters that follow the penumbra: bounds around the fragment tell where none is needed.
+// Needs horizon.glsl, penumbra_bounds.glsl, and from the includer
+// hs_penumbraWidth(): sides of the penumbra in texels for hs_kernel, or -1: lit, or -2: umbra;
+// hs_filter(width): the share that is lit of so much of the map around the fragment.
 float halfshadow_class() {
   hs_prepare();
   float known = hs_maskClass();
   return known > -0.5 ? known * hs_lightAbove() : known;
 }
 
+float hs_filterOf(HS_HIGHP vec2 width) {
+  if (width.x < 0.0) return width.x < -1.5 ? 0.0 : 1.0;
+  return hs_filter(width);
+}
+
+#ifdef HS_SUB_LIGHTS_U
+// HS_ONE_SEARCH: one width for all, that of the whole light in the map of the sub-light in its middle. Errors of a
+// width count the less the more sub-lights there are, and finding it costs more than filtering.
+float hs_meanVisibility() {
+  HS_HIGHP float widestGap = hs_widestGap;
+#ifdef HS_ONE_SEARCH
+  hs_enterSubLight(float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V / 2));
+  HS_HIGHP vec2 width = hs_penumbraWidth();
+  if (width.x < 0.0) return hs_lightAbove();
+  width *= u_subLightShare.xy;
+#else
+  HS_HIGHP vec2 width;
+  hs_kernel = u_penumbra.xy * u_subLightShare.xy;
+#endif
+  float sum = 0.0;
+  for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
+    hs_enterSubLight(float(i));
+    float above = hs_subLightAbove();
+    if (above <= 0.0) continue;
+#ifndef HS_ONE_SEARCH
+    hs_widestGap = widestGap;
+    width = hs_penumbraWidth();
+#endif
+    sum += above * hs_filterOf(width);
+  }
+  return sum * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+}
+#else
+float hs_meanVisibility() { return hs_lightAbove() * hs_filterOf(hs_penumbraWidth()); }
+#endif
+
 float halfshadow_visibility() {
   hs_prepare();
   float known = hs_maskClass();
-  return known > -0.5 ? known * hs_lightAbove() : hs_meanVisibility();
+  if (known > -0.5) return known * hs_lightAbove();
+  hs_kernel = u_penumbra.xy;
+  return hs_meanVisibility();
 }

@@ -22,6 +22,7 @@ uniform HS_HIGHP vec4 u_subLightStep;  // texels per unit of depth between neigh
 // x: depth at which all places agree, y: texels per unit of depth from there to the outermost map,
 // z: 1 / atlas in texels, w: maps in its rows
 uniform HS_HIGHP vec4 u_subLights;
+uniform HS_HIGHP vec4 u_subLightShare;  // xy: sides of a sub-light as shares of the light's
 #endif
 
 // Filled by hs_prepare(), which every entry point calls first: derivatives are undefined inside branches.

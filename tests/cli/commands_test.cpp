@@ -103,6 +103,8 @@ TEST_F(CliTest, ReferenceAndCompareAgreeWithThemselves) {
   // Jittered 8 x 8 strata: each seed's deviation is far below that of 64 independent points, 0.5 / 8.
   EXPECT_GT(other["error"]["penumbra"]["rmse"].get<double>(), 0.0);
   EXPECT_LT(other["error"]["penumbra"]["rmse"].get<double>(), 0.0625);
+  EXPECT_EQ(same["error"]["penumbra_roughness"], 0.0);
+  EXPECT_GT(other["error"]["penumbra_roughness"].get<double>(), 0.0);
   const auto image = images::readImage(path("a.exr"));
   ASSERT_TRUE(image.ok());
   EXPECT_EQ(image->channelNames, std::vector<std::string>{"V"});

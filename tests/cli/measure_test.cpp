@@ -65,6 +65,7 @@ TEST_F(CliTest, MeasureWritesThePromisedFields) {
       expectFields(technique["error"][set], {"mae", "rmse", "bias", "p99", "max", "share_over_2_255"});
     }
     EXPECT_EQ(technique["error"]["receiver"]["nan_pixels"], 0);
+    EXPECT_GE(technique["error"]["penumbra_roughness"].get<double>(), 0.0);
     expectFields(technique["time_ms"], {"median", "p95", "min", "frames"});
     EXPECT_EQ(technique["time_ms"]["frames"], 2);
     EXPECT_LE(technique["time_ms"]["min"].get<double>(), technique["time_ms"]["median"].get<double>());

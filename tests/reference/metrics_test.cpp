@@ -80,6 +80,20 @@ TEST(Metrics, WeightsAreRepeatedPixels) {
   EXPECT_EQ(weighted.pixels, 3u) << "weight 0 deselects";
 }
 
+TEST(Metrics, RoughnessIsTheErrorsChangeAlongRows) {
+  // Two rows of four; errors .25, .25, -.25, (left out) and .5, 0, 0, .5.
+  const Values truth(8, 0.5f);
+  const Values measured{0.75f, 0.75f, 0.25f, 0.0f, 1.0f, 0.5f, 0.5f, 1.0f};
+  const Mask selected{1, 1, 1, 0, 1, 1, 1, 1};
+  EXPECT_DOUBLE_EQ(roughness(measured, truth, selected, 4), std::sqrt((0.0 + 0.25 + 0.25 + 0.0 + 0.25) / 5));
+  // The same offset everywhere is no roughness, whatever the truth does.
+  EXPECT_DOUBLE_EQ(roughness(Values{0.25f, 0.75f, 0.5f}, Values{0.0f, 0.5f, 0.25f}, Mask{1, 1, 1}, 3), 0.0);
+  EXPECT_EQ(roughness(measured, truth, Mask(8, 0), 4), 0.0);
+  EXPECT_EQ(roughness({}, {}, {}, 4), 0.0);
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  EXPECT_DOUBLE_EQ(roughness(Values{nan, 0.0f}, Values{1.0f, 0.0f}, Mask{1, 1}, 2), 1.0);
+}
+
 TEST(Metrics, PenumbraIsStrictlyBetweenItsBounds) {
   const Values truth{0.0f, 0.005f, 0.0051f, 0.5f, 0.9949f, 0.995f, 1.0f, 0.5f};
   EXPECT_EQ(penumbraMask(truth, Mask{1, 1, 1, 2, 1, 1, 1, 0}), (Mask{0, 0, 1, 1, 1, 0, 0, 0}));

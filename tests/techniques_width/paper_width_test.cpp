@@ -29,7 +29,7 @@ Maps mapsOf(gl::Context& context, const std::string& scene, int side, const std:
   Maps maps;
   LightRig rig(context, openBuiltin(scene), side);
   const auto planWidth = [&](const techniques::LightScene& light, techniques::PassPlan& plan) {
-    const LightDepth depth = techniques::planLightDepth(light, light.center(), plan, content);
+    const LightDepth depth = techniques::planLightDepth(light, light.center, plan, content);
     return techniques::planPaperWidth(light, plan, depth, steps, build);
   };
   maps.width = firstChannel(rig.run(planWidth));

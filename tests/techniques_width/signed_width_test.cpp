@@ -35,7 +35,7 @@ struct Planned {
     map = planMap(rig.scene(), plan);
   }
   static SignedWidthMap planMap(const techniques::LightScene& light, techniques::PassPlan& plan) {
-    const auto depth = techniques::planLightDepth(light, light.center(), plan, MapContent::casters);
+    const auto depth = techniques::planLightDepth(light, light.center, plan, MapContent::casters);
     return techniques::planSignedWidth(light, plan, depth);
   }
   std::vector<std::uint8_t> runMap() {
@@ -50,7 +50,7 @@ struct Planned {
 std::vector<std::uint8_t> occlusionOf(gl::Context& context, const scene::SceneDescription& scene, int side) {
   LightRig rig(context, scene, side);
   const std::vector<std::uint8_t> rgba = rig.run([](const auto& light, techniques::PassPlan& plan) {
-    const auto depth = techniques::planLightDepth(light, light.center(), plan, MapContent::casters);
+    const auto depth = techniques::planLightDepth(light, light.center, plan, MapContent::casters);
     techniques::planPaperWidth(light, plan, depth, techniques::widthSteps(3, 4), WidthBuild::gpu);
     return imageNamed(plan, "light 0 shadow width occlusion");
   });

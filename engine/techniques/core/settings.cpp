@@ -37,7 +37,8 @@ std::vector<SettingInfo> commonSettings() {
        0,
        0,
        {"auto", "1", "2", "3", "4"},
-       "parts per longer side of a rectangle light that maps see it from; auto: as the penumbrae need"},
+       "parts per longer side of a rectangle light that maps see it from; auto: as the penumbrae need, with "
+       "one search for their width instead of one for each part"},
       {"bias",
        SettingType::real,
        "1.0",

@@ -74,7 +74,7 @@ class PcfQuantized final : public Technique {
     return joined(
         {mapReceiverFamilies(
              "map/pcf_quantized.frag",
-             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_SEARCH 5"}}}, castingAxis(), subLightAxis()},
+             {range("HS_SPREAD_KERNEL", 3, 9, {4, 7}), {{{"HS_SEARCH 5"}}}, castingAxis(), subLightAxis()},
              {.twoDraws = true}),
          mapReceiverFamilies("map/pcf_quantized_paper.frag",
                              {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_LIT_OUTSIDE"}}}})});
@@ -123,7 +123,9 @@ class PcfQuantized final : public Technique {
     addPenumbraBounds(scene, plan, depth, shading);
     addSelfReceiverSearch(scene, shading);
     addBlockerPyramid(shading, depth, *pyramid);
-    addKernels(shading, kernelSides(scene.settings.choice("pcf-quantized.kernels")));
+    std::array<int, 3> sides = kernelSides(scene.settings.choice("pcf-quantized.kernels"));
+    for (int& side : sides) side = filterSide(depth, side);
+    addKernels(shading, sides);
 
     // Bands evenly apart in octaves from the widest penumbra that this frame can have down to two texels, at
     // most half an octave apart. A caster close to the light makes that width huge and rare: then all bands

@@ -42,7 +42,8 @@ class Pcss final : public Technique {
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "map/pcss.frag");
     shading.defines.push_back("HS_SEARCH " + scene.settings.text("pcss.search"));
-    shading.defines.push_back("HS_SPREAD_KERNEL " + scene.settings.text("pcss.size"));
+    shading.defines.push_back("HS_SPREAD_KERNEL " +
+                              std::to_string(filterSide(depth, scene.settings.integer("pcss.size"))));
     addPenumbraBounds(scene, plan, depth, shading);
     return {};
   }

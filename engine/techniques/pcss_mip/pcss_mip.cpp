@@ -45,7 +45,8 @@ class PcssMip final : public Technique {
     if (!pyramid) return pyramid.error();
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "map/pcss_mip.frag");
-    shading.defines.push_back("HS_SPREAD_KERNEL " + scene.settings.text("pcss-mip.size"));
+    shading.defines.push_back("HS_SPREAD_KERNEL " +
+                              std::to_string(filterSide(depth, scene.settings.integer("pcss-mip.size"))));
     addPenumbraBounds(scene, plan, depth, shading);
     addSelfReceiverSearch(scene, shading);
     addBlockerPyramid(shading, depth, *pyramid);

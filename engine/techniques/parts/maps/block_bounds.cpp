@@ -10,12 +10,9 @@
 
 namespace halfshadow::techniques {
 
-std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels, const LightDepth& depth) {
-  std::vector<std::string> defines = tileDefines(depth);
-  defines.push_back("HS_REACH_S " + std::to_string(reachS));
-  defines.push_back("HS_REACH_T " + std::to_string(reachT));
-  defines.push_back("HS_CELL " + std::to_string(cellTexels));
-  return defines;
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels) {
+  return {"HS_REACH_S " + std::to_string(reachS), "HS_REACH_T " + std::to_string(reachT),
+          "HS_CELL " + std::to_string(cellTexels)};
 }
 
 BlockBounds planBlockBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
@@ -66,12 +63,9 @@ BlockBounds planBlockBounds(const LightScene& scene, PassPlan& plan, const Light
   const std::uint64_t key =
       combineKeys(depth.contentKey, 0xd11a7e00u + static_cast<std::uint64_t>(size * 16 + reach));
   const Rect whole{0, 0, size, size};
-  addLevelPass(plan, name, bounds.map,
-               {{"map/block_dilate.frag",
-                 dilationDefines(reach, reach, 1, depth),
-                 {source, size, size, whole},
-                 whole}},
-               key);
+  addLevelPass(
+      plan, name, bounds.map,
+      {{"map/block_dilate.frag", dilationDefines(reach, reach, 1), {source, size, size, whole}, whole}}, key);
   return bounds;
 }
 

@@ -22,6 +22,9 @@ BlockBounds planBlockBounds(const LightScene& scene, PassPlan& plan, const Light
 /// Adds the mask's texture and uniform to a receiver program that includes block_mask.glsl.
 void addBlockMask(ReceiverShading& shading, const BlockBounds& bounds);
 
+/// Taps a side of the filter of each map, where `side` is what one map of the whole light has.
+int filterSide(const LightDepth& depth, int side);
+
 /// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
 double widestPenumbraTexels(const LightScene& scene, const MapSpace& space);
 
@@ -31,8 +34,8 @@ void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth
                        ReceiverShading& shading);
 
 /// Defines of block_dilate.frag: bounds of cells of `cellTexels` source texels a side and of their neighbours
-/// up to `reachS` and `reachT` cells away, in the same tile of an atlas.
-std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels, const LightDepth& depth);
+/// up to `reachS` and `reachT` cells away.
+std::vector<std::string> dilationDefines(int reachS, int reachT, int cellTexels);
 
 /// Occupied share and mean depth of cells of the map at all sizes, in one atlas.
 struct BlockerPyramid {

@@ -66,7 +66,7 @@ LightDepth planLightDepths(const LightScene& scene, PassPlan& plan, MapContent c
 /// Defines of every shader that reads the map on this rung.
 std::vector<std::string> depthDefines(DepthStorage storage);
 
-/// Of shaders that read an image of which each sub-light's map has a tile: empty for one map.
+/// Of shaders that read the maps of all sub-lights from their atlas: empty for one map.
 std::vector<std::string> tileDefines(const LightDepth& depth);
 
 /// A receiver program that samples the map: defines, textures and uniforms common to all map techniques.

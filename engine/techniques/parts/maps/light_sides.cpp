@@ -16,7 +16,8 @@ glm::dvec2 texelsPerDepth(const MapSpace& space, const glm::dvec2& vectorLight) 
 
 std::vector<std::string> tileDefines(const LightDepth& depth) {
   if (depth.subLights == nullptr) return {};
-  return {"HS_TILES " + std::to_string(depth.tilesPerSide())};
+  return {"HS_TILES " + std::to_string(depth.tilesPerSide()),
+          "HS_MAPS " + std::to_string(depth.subLights->grid.count())};
 }
 
 void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
@@ -25,6 +26,7 @@ void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
   const MapSpace& space = depth.space;
   shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(split.grid.alongU));
   shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(split.grid.alongV));
+  if (split.oneSearch) shading.defines.emplace_back("HS_ONE_SEARCH");
   const glm::dvec2 stepU = texelsPerDepth(space, split.stepU), stepV = texelsPerDepth(space, split.stepV);
   const glm::dvec2 spread =
       glm::abs(stepU) * (0.5 * (split.grid.alongU - 1)) + glm::abs(stepV) * (0.5 * (split.grid.alongV - 1));
@@ -32,6 +34,8 @@ void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
   shading.uniforms.set("u_subLights",
                        glm::vec4((1.0 - space.nearDistance / split.alignedDistance) * space.depthUnit,
                                  std::max(spread.x, spread.y), 1.0 / depth.atlasSize, depth.tilesPerSide()));
+  const glm::dvec2 whole = glm::max(split.shared.halfSize, glm::dvec2(1e-300));
+  shading.uniforms.set("u_subLightShare", glm::vec4(split.halfSize / whole, 0.0, 0.0));
 }
 
 void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShading& shading) {

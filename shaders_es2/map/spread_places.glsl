@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Places spread evenly over a rectangle: side x side of them, side chosen per fragment.
+//
+// Four places a turn of a loop, a quarter turn about the middle apart: a turn costs more than a fetch, and an edge
+// along an axis crosses one place at a time, not `side`. Turns step outward along one axis and by a share of the
+// other that leaves no few of them close together: of 900 choices of share and start the best on straight edges of all
+// directions and on corners, for 3 to 9 a side.
+
+// More turns than 17 a side take, and more than compilers unroll: programs stay small.
+#define HS_MOST_TURNS 96
+
+struct HS_Places {
+  HS_HIGHP float turns;   // that are left
+  HS_HIGHP float center;  // 1: the middle is a place as well
+  HS_HIGHP vec2 place;    // of this turn, in sides of the rectangle from its middle; the others by quarter turns
+  HS_HIGHP vec2 outward;  // to the next one
+  HS_HIGHP vec2 wrap;     // x: end of the second axis, y: length
+};
+
+HS_Places hs_firstPlaces(HS_HIGHP float side) {
+  HS_Places places;
+  HS_HIGHP float spacing = 1.0 / (side * side);
+  places.turns = floor(0.25 * side * side);
+  places.center = side * side - 4.0 * places.turns;
+  // The place in the middle takes half a step of each direction.
+  HS_HIGHP float first = 0.5 * places.center * spacing;
+  HS_HIGHP float range = 2.0 * spacing * places.turns;
+  places.place = first + vec2(0.5 * spacing, 0.31315 * range);
+  places.outward = vec2(2.0 * spacing, 0.6263 * range);
+  places.wrap = vec2(first + range, range);
+  return places;
+}
+
+void hs_nextPlaces(inout HS_Places places) {
+  places.turns -= 1.0;
+  places.place += places.outward;
+  places.place.y -= step(places.wrap.x, places.place.y) * places.wrap.y;
+}
