@@ -63,10 +63,32 @@ std::array<float, 24> boxCorners(double halfX, double halfY, double halfZ) {
   return corners;
 }
 
+/// A square of hills, so that it casts, with about so many triangles.
+struct Hills {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+};
+Hills hills(double halfSide, int triangles) {
+  const auto cells = static_cast<std::uint32_t>(std::sqrt(0.5 * triangles));
+  Hills mesh;
+  for (std::uint32_t i = 0; i <= cells; ++i) {
+    for (std::uint32_t k = 0; k <= cells; ++k) {
+      const double x = halfSide * (2.0 * i / cells - 1.0), z = halfSide * (2.0 * k / cells - 1.0);
+      const double y = 0.1 * halfSide * (std::sin(3.0 * x) * std::cos(2.0 * z) - 1.0);
+      for (const double coordinate : {x, y, z}) mesh.positions.push_back(static_cast<float>(coordinate));
+      if (i == cells || k == cells) continue;
+      const std::uint32_t a = i * (cells + 1) + k, b = a + cells + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  }
+  return mesh;
+}
+
 /// An engine with a square of boxes over a ground, all in view of the camera.
 class BoxField {
  public:
-  static std::unique_ptr<BoxField> make(int boxes, std::string& error) {
+  /// `levelTriangles`: of hills in place of the flat ground; 0 = none.
+  static std::unique_ptr<BoxField> make(int boxes, int levelTriangles, std::string& error) {
     auto context = createHeadless({});
     if (!context) {
       error = context.error().message;
@@ -81,7 +103,7 @@ class BoxField {
                                          .hostState = HostState::leaveDirty},
                                         outcome));
     benchmarks::glDraws = false;
-    if (outcome.ok()) outcome = field->fill(boxes);
+    if (outcome.ok()) outcome = field->fill(boxes, levelTriangles);
     if (outcome.ok()) return field;
     error = outcome.message;
     return nullptr;
@@ -109,12 +131,11 @@ class BoxField {
  private:
   BoxField() = default;
 
-  Outcome fill(int boxes) {
+  Outcome fill(int boxes, int levelTriangles) {
     const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
     extent_ = 0.5 * kSpacing * side;
-    const auto ground = boxCorners(1.5 * extent_, 0.05, 1.5 * extent_);
     ObjectId id = 0;
-    if (const Outcome added = add(ground, 0.0, -0.05, 0.0, id); !added.ok()) return added;
+    if (const Outcome added = addGround(levelTriangles); !added.ok()) return added;
     const auto corners = boxCorners(kHalfSize, kHalfSize, kHalfSize);
     for (int i = 0; i < boxes; ++i) {
       const double x = kSpacing * (i % side) - extent_, z = kSpacing * (i / side) - extent_;
@@ -128,6 +149,18 @@ class BoxField {
     desc_.target.height = kHeight;
     desc_.output = Output::visibility;
     return setLight(0.0);
+  }
+
+  Outcome addGround(int levelTriangles) {
+    ObjectId id = 0;
+    if (levelTriangles == 0) return add(boxCorners(1.5 * extent_, 0.05, 1.5 * extent_), 0.0, -0.05, 0.0, id);
+    const Hills level = hills(1.5 * extent_, levelTriangles);
+    ObjectDesc object;
+    object.mesh.positions = level.positions.data();
+    object.mesh.vertexCount = static_cast<std::uint32_t>(level.positions.size() / 3);
+    object.mesh.indices = level.indices.data();
+    object.mesh.indexCount = level.indices.size();
+    return engine_->addObject(object, id);
   }
 
   Outcome add(const std::array<float, 24>& corners, double x, double y, double z, ObjectId& id) {
@@ -164,9 +197,15 @@ class BoxField {
   int frame_ = 0;
 };
 
-void frame(benchmark::State& state, const char* technique, Change change) {
+enum class Ground { flat, level };
+constexpr int kBoxesOnLevel = 20;
+
+/// The benchmark's argument is the number of boxes, or of the level's triangles.
+void frame(benchmark::State& state, const char* technique, Change change, Ground ground) {
   std::string error;
-  const auto field = BoxField::make(static_cast<int>(state.range(0)), error);
+  const auto size = static_cast<int>(state.range(0));
+  const auto field =
+      ground == Ground::flat ? BoxField::make(size, 0, error) : BoxField::make(kBoxesOnLevel, size, error);
   if (field) error = field->choose(technique);
   for (int i = 0; error.empty() && i < kWarmUpFrames; ++i) error = field->renderNext(change);
   if (!error.empty()) {
@@ -190,11 +229,12 @@ void frame(benchmark::State& state, const char* technique, Change change) {
   state.counters["gl_calls"] = static_cast<double>(calls) / frames;
 }
 
+struct Named {
+  const char* name;
+  Change change;
+};
+
 void registerAll() {
-  struct Named {
-    const char* name;
-    Change change;
-  };
   for (const char* technique :
        {"none", "hard", "pcss-mip", "shadow-width", "wedges-blended", "wedges-cells"}) {
     for (const Named& what : {Named{"unchanged", Change::nothing},
@@ -202,13 +242,21 @@ void registerAll() {
                               {"mover", Change::oneMover},
                               {"light", Change::light}}) {
       const std::string name = std::string(technique) + "/" + what.name;
-      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change)
+      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change, Ground::flat)
           ->Arg(20)
           ->Arg(200)
           ->Arg(2000)
           ->Unit(benchmark::kMicrosecond)
           ->UseRealTime();
     }
+  }
+  for (const Named& what : {Named{"mover", Change::oneMover}, {"light", Change::light}}) {
+    const std::string name = std::string("hard/level-") + what.name;
+    benchmark::RegisterBenchmark(name.c_str(), frame, "hard", what.change, Ground::level)
+        ->Arg(1000)
+        ->Arg(100000)
+        ->Unit(benchmark::kMicrosecond)
+        ->UseRealTime();
   }
 }
 
