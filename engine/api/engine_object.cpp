@@ -4,8 +4,6 @@
 
 #include <glm/gtc/matrix_transform.hpp>
 
-#include "scene/convex_hull.hpp"
-
 namespace halfshadow {
 
 void EngineObject::place(const glm::dmat4& worldFromHostNow) {
@@ -20,7 +18,7 @@ void EngineObject::positionsChanged() {
   animated = true;
   geometry.positionsChanged();
   supportingPlanes_.reset();
-  pointsObject_.clear();
+  enclosing_ = {};
   pointsPlaced_ = false;
 }
 
@@ -29,14 +27,19 @@ const scene::SupportingPlanes& EngineObject::support() const {
   return *supportingPlanes_;
 }
 
+const scene::EnclosingPoints& EngineObject::enclosing() const {
+  // A hull costs more than it saves where the next frame has other positions.
+  if (enclosing_.points.empty())
+    enclosing_ =
+        animated ? scene::EnclosingPoints{scene::usedVertices(mesh), true} : scene::enclosingPoints(mesh);
+  return enclosing_;
+}
+
 void EngineObject::placePoints() const {
   if (pointsPlaced_) return;
-  // A hull costs more than it saves where the next frame has other positions.
-  if (pointsObject_.empty())
-    pointsObject_ = animated ? scene::usedVertices(mesh) : scene::enclosingPoints(mesh);
   pointsWorld_.clear();
   pointBoundsWorld_ = {};
-  for (const glm::dvec3& point : pointsObject_) {
+  for (const glm::dvec3& point : enclosing().points) {
     pointsWorld_.push_back(glm::dvec3(worldFromObject * glm::dvec4(point, 1.0)));
     pointBoundsWorld_.include(pointsWorld_.back());
   }

@@ -11,6 +11,7 @@
 #include "halfshadow/types.hpp"
 #include "planner/light_fit.hpp"
 #include "scene/bounds.hpp"
+#include "scene/convex_hull.hpp"
 #include "scene/supporting_planes.hpp"
 #include "techniques/execution/gpu_mesh.hpp"
 
@@ -47,13 +48,16 @@ struct EngineObject {
   void positionsChanged();
   /// Of the positions there are now; found on the first call.
   const scene::SupportingPlanes& support() const;
+  /// Hold its mesh; found once for it.
+  const scene::EnclosingPoints& enclosing() const;
   /// For fits; its points are found once for a mesh, and placed when it has moved.
   planner::CasterShape shape() const;
 
  private:
   void placePoints() const;
   mutable std::optional<scene::SupportingPlanes> supportingPlanes_;  ///< see support()
-  mutable std::vector<glm::dvec3> pointsObject_, pointsWorld_;       ///< see shape()
+  mutable scene::EnclosingPoints enclosing_;
+  mutable std::vector<glm::dvec3> pointsWorld_;  ///< see shape()
   mutable scene::Bounds pointBoundsWorld_;
   mutable bool pointsPlaced_ = false;
 };

@@ -14,6 +14,7 @@ planner::PlannedObject plannedObject(const EngineObject& object) {
           .receives = object.receives,
           .mesh = &object.mesh,
           .support = &object.support(),
+          .enclosing = &object.enclosing(),
           .worldFromObject = object.worldFromObject};
 }
 }  // namespace

@@ -15,6 +15,7 @@
 #include "planner/skips.hpp"
 #include "scene/bounds.hpp"
 #include "scene/camera.hpp"
+#include "scene/convex_hull.hpp"
 #include "scene/light.hpp"
 #include "scene/supporting_planes.hpp"
 
@@ -29,6 +30,7 @@ struct PlannedObject {
   /// Its shape, all three or none: with them more casters are known to shadow nothing (see separation.hpp).
   const scene::TriangleMesh* mesh = nullptr;
   const scene::SupportingPlanes* support = nullptr;
+  const scene::EnclosingPoints* enclosing = nullptr;  ///< of the mesh, or null: then all of it is looked at
   glm::dmat4 worldFromObject{1.0};
 };
 

@@ -75,6 +75,8 @@ class Separation {
   bool proves(std::uint32_t caster, std::uint32_t receiver);
   bool reachesOnlyFrom(std::uint32_t object, const glm::dvec3& direction, double least);
   bool shadowsItself(std::uint32_t object);
+  bool takeBehind(const Plane& plane, std::uint32_t receiver, std::size_t triangle, double slack);
+  bool takeAcross(const Plane& plane, std::uint32_t receiver, double slack);
   bool hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver, double slack);
   bool enclosesLight(std::uint32_t object);
   bool eyeIsInside(std::uint32_t object);
@@ -87,7 +89,9 @@ class Separation {
   std::vector<Body> bodies_;
   std::vector<ByCamera> byCamera_;
   bool askedCamera_ = false;
-  std::vector<glm::dvec3> outline_, behind_;  ///< working memory
+  // Working memory.
+  std::vector<glm::dvec3> outline_, behind_;
+  std::vector<std::size_t> blocksBehind_;
 };
 
 /// The eye, or a part of the near plane, may be inside the object: then it may be seen from within.

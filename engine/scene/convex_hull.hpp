@@ -28,9 +28,14 @@ std::optional<std::vector<HullFace>> convexHull(std::span<const glm::dvec3> poin
 std::vector<glm::dvec3> convexPolygon(std::vector<glm::dvec3> points, const glm::dvec3& normal);
 
 /// Points whose convex hull holds every triangle of the mesh, object space: what bounds of it are found from
-/// wherever it is placed. They are the hull's own corners, with which bounds are those of the mesh itself;
-/// where these are many (a fine sphere), some thousand that lie up to 1 % outside.
-std::vector<glm::dvec3> enclosingPoints(const TriangleMesh& mesh);
+/// wherever it is placed.
+struct EnclosingPoints {
+  std::vector<glm::dvec3> points;
+  /// They are vertices, the hull's own corners, with which bounds are those of the mesh itself. Where these
+  /// are many (a fine sphere), some thousand points stand for them that lie up to 1 % outside.
+  bool exact = true;
+};
+EnclosingPoints enclosingPoints(const TriangleMesh& mesh);
 /// The vertices that triangles use, each once: the same at no effort, for meshes that change.
 std::vector<glm::dvec3> usedVertices(const TriangleMesh& mesh);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "scene/bounds.hpp"
 #include "scene/convex_hull.hpp"
@@ -87,9 +88,9 @@ std::vector<glm::dvec3> usedVertices(const TriangleMesh& mesh) {
   return vertices;
 }
 
-std::vector<glm::dvec3> enclosingPoints(const TriangleMesh& mesh) {
+EnclosingPoints enclosingPoints(const TriangleMesh& mesh) {
   std::vector<glm::dvec3> vertices = usedVertices(mesh);
-  if (vertices.size() <= 8) return vertices;
+  if (vertices.size() <= 8) return {std::move(vertices), true};
   const auto hull = convexHull(vertices);
   std::vector<glm::dvec3> corners;
   if (hull) {
@@ -103,7 +104,8 @@ std::vector<glm::dvec3> enclosingPoints(const TriangleMesh& mesh) {
   } else {
     corners = cornersOfFlat(vertices);
   }
-  return corners.size() <= kMostCorners ? corners : cornersAround(corners);
+  if (corners.size() <= kMostCorners) return {std::move(corners), true};
+  return {cornersAround(corners), false};
 }
 
 }  // namespace halfshadow::scene

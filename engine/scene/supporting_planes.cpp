@@ -142,6 +142,11 @@ SupportingPlanes supportingPlanesOf(const TriangleMesh& mesh, const glm::dvec3& 
   planes.largestCoordinate =
       glm::max(glm::abs(planes.bounds.low + recenteredBy), glm::abs(planes.bounds.high + recenteredBy));
   Finder(mesh, planes).find();
+  constexpr std::size_t kBlockIndices = 3 * SupportingPlanes::kBlockTriangles;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (i % kBlockIndices == 0) planes.blocks.emplace_back();
+    planes.blocks.back().include(glm::dvec3(mesh.positions[mesh.indices[i]]));
+  }
   return planes;
 }
 

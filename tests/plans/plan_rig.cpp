@@ -85,7 +85,7 @@ const techniques::LightScene& PlanRig::prepare(int channel) {
     casters_.push_back(item);
     contentKey = combineKeys(contentKey, item.revision);
     object->pointsWorld.clear();
-    for (const glm::dvec3& point : scene::enclosingPoints(*item.sourceMesh))
+    for (const glm::dvec3& point : scene::enclosingPoints(*item.sourceMesh).points)
       object->pointsWorld.emplace_back(item.worldFromObject * glm::dvec4(point, 1.0));
     casterShapes_.push_back({.id = object->id,
                              .revision = object->revision,

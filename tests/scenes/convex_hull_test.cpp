@@ -59,7 +59,7 @@ TEST(EnclosingPoints, OfABoxOfManyVerticesAreItsCorners) {
       for (int z = 0; z <= 8; ++z) grid.push_back({x, y, z});
     }
   }
-  const auto points = enclosingPoints(meshOf(grid));
+  const auto points = enclosingPoints(meshOf(grid)).points;
   EXPECT_EQ(points.size(), 8u);
   EXPECT_EQ(compare(meshOf(grid), points).meshBeyond, 0.0);
 }
@@ -69,12 +69,12 @@ TEST(EnclosingPoints, OfFlatMeshesAreTheirOutline) {
   for (int x = 0; x <= 30; ++x) {
     for (int z = 0; z <= 30; ++z) grid.push_back({x, 2, z});
   }
-  EXPECT_EQ(enclosingPoints(meshOf(grid)).size(), 4u);
+  EXPECT_EQ(enclosingPoints(meshOf(grid)).points.size(), 4u);
   // Along a line, and in one place.
   std::vector<glm::vec3> line;
   for (int i = 0; i < 20; ++i) line.push_back({i, 2 * i, -i});
-  EXPECT_EQ(compare(meshOf(line), enclosingPoints(meshOf(line))).meshBeyond, 0.0);
-  EXPECT_FALSE(enclosingPoints(meshOf(std::vector<glm::vec3>(20, glm::vec3(1)))).empty());
+  EXPECT_EQ(compare(meshOf(line), enclosingPoints(meshOf(line)).points).meshBeyond, 0.0);
+  EXPECT_FALSE(enclosingPoints(meshOf(std::vector<glm::vec3>(20, glm::vec3(1)))).points.empty());
 }
 
 TEST(EnclosingPoints, OfRandomCloudsReachExactlyAsFar) {
@@ -84,7 +84,7 @@ TEST(EnclosingPoints, OfRandomCloudsReachExactlyAsFar) {
     std::vector<glm::vec3> points;
     const float thin = round % 3 == 0 ? 1e-3f : 1.0f;
     for (int i = 0; i < 400; ++i) points.push_back({unit(random), thin * unit(random), unit(random)});
-    const auto enclosing = enclosingPoints(meshOf(points));
+    const auto enclosing = enclosingPoints(meshOf(points)).points;
     EXPECT_LT(enclosing.size(), 200u);
     const Reach reach = compare(meshOf(points), enclosing);
     EXPECT_EQ(reach.meshBeyond, 0.0);
@@ -94,14 +94,14 @@ TEST(EnclosingPoints, OfRandomCloudsReachExactlyAsFar) {
 
 TEST(EnclosingPoints, OfAFineSphereAreFewAndLieJustOutside) {
   const TriangleMesh fine = meshOf(sphere(9000, 2));
-  const auto points = enclosingPoints(fine);
+  const auto points = enclosingPoints(fine).points;
   EXPECT_LE(points.size(), 1100u);
   const Reach reach = compare(fine, points);
   EXPECT_LE(reach.meshBeyond, 0.0);
   EXPECT_LE(reach.pointsBeyond, 0.01);
   const TriangleMesh coarse = meshOf(sphere(600, 3));
-  EXPECT_EQ(compare(coarse, enclosingPoints(coarse)).meshBeyond, 0.0);
-  EXPECT_EQ(compare(coarse, enclosingPoints(coarse)).pointsBeyond, 0.0);
+  EXPECT_EQ(compare(coarse, enclosingPoints(coarse).points).meshBeyond, 0.0);
+  EXPECT_EQ(compare(coarse, enclosingPoints(coarse).points).pointsBeyond, 0.0);
 }
 
 TEST(EnclosingPoints, OfTheBuiltinScenesBoundThemExactly) {
@@ -109,7 +109,7 @@ TEST(EnclosingPoints, OfTheBuiltinScenesBoundThemExactly) {
     const auto scene = scenes::openScene(name, {});
     ASSERT_TRUE(scene) << scene.error().message;
     for (const SceneObject& object : scene->objects) {
-      const auto points = enclosingPoints(*object.mesh);
+      const auto points = enclosingPoints(*object.mesh).points;
       const Reach reach = compare(*object.mesh, points);
       EXPECT_LE(reach.meshBeyond, 1e-10) << name << " " << object.name;
       EXPECT_LE(reach.pointsBeyond, 0.01) << name << " " << object.name << " " << points.size() << " of "
