@@ -45,6 +45,7 @@ struct EngineObject {
   glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
   scene::Bounds boundsObject, boundsWorld;
   bool mirrored = false;
+  float solidity = 1.0f;  ///< of a caster, see scene::solidity(); of the first positions
   /// Sets worldFromObject and what follows from it; recenteredBy and boundsObject are set before.
   void place(const glm::dmat4& worldFromHostNow);
   /// Of the positions there are now; found on the first call.
