@@ -20,6 +20,7 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
           .boundsWorld = object.boundsWorld,
           .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
+          .solidity = object.solidity,
           .mirrored = object.mirrored,
           .facetStream = object.gpu.hasFacetStream(),
           .sourceMesh = &object.mesh,

@@ -35,6 +35,7 @@ struct EngineObject {
   glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
   scene::Bounds boundsObject, boundsWorld;
   bool mirrored = false;
+  float solidity = 1.0f;  ///< of a caster, see scene::solidity(); of the first positions
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
   gl::Texture baseColorTexture;

@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
+#include "scene/solidity.hpp"
 
 namespace halfshadow {
 namespace {
@@ -91,6 +92,7 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   }
   object.mesh = std::move(mesh).value();
   object.boundsObject = scene::boundsOf(object.mesh);
+  if (desc.casts) object.solidity = static_cast<float>(scene::solidity(object.mesh));
   object.place(*transform);
   object.casts = desc.casts;
   object.receives = desc.receives;

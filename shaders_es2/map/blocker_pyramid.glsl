@@ -12,32 +12,45 @@ uniform HS_HIGHP vec4 u_pyramidLayout;
 // x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
 
-// A tent of two cells' width around a texel. x: share of it that lies nearer, y: share times gap.
-HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
-  HS_HIGHP float side = floor(u_pyramidLayout.x * exp2(-level) + 0.5);
+// What one cell, whose centre is at uv, says. x: share of it that lies nearer, y: share times gap.
+HS_HIGHP vec2 hs_cell(HS_HIGHP vec2 uv) {
+  HS_HIGHP vec2 stored = hs_unpackOccupancy(texture2D(u_pyramid, uv));
+  HS_COUNT(1);
+  HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
+  return stored.x * step(0.0, gap) * vec2(1.0, gap);
+}
+
+// Texel of the atlas at which a level's cells begin.
+HS_HIGHP vec2 hs_levelOrigin(HS_HIGHP float level, HS_HIGHP float side) {
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_pyramidLayout.x, u_pyramidLayout.x - 2.0 * side);
 #ifdef HS_SUB_LIGHTS_U
   origin = origin * u_subLights.w + hs_tile * side;
-  HS_HIGHP vec2 scale = vec2(2.0 / 3.0, 1.0) / (u_pyramidLayout.x * u_subLights.w);
-#else
-  HS_HIGHP vec2 scale = vec2(2.0 / 3.0, 1.0) / u_pyramidLayout.x;
 #endif
+  return origin;
+}
+
+// From cell to cell in texture coordinates.
+HS_HIGHP vec2 hs_cellPitch() {
+#ifdef HS_SUB_LIGHTS_U
+  return vec2(2.0 / 3.0, 1.0) / (u_pyramidLayout.x * u_subLights.w);
+#else
+  return vec2(2.0 / 3.0, 1.0) / u_pyramidLayout.x;
+#endif
+}
+
+// A tent of two cells' width around a texel.
+HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
+  HS_HIGHP float side = floor(u_pyramidLayout.x * exp2(-level) + 0.5);
   HS_HIGHP vec2 at = texel * (side * u_pyramidLayout.z) - 0.5;
   HS_HIGHP vec2 first = floor(at);
   HS_HIGHP vec2 part = at - first;
-  HS_HIGHP vec2 corner = vec2(0.0);
-  HS_HIGHP vec2 sum = vec2(0.0);
-  for (int i = 0; i < 4; ++i) {
-    HS_HIGHP vec2 cell = first + corner;
-    HS_HIGHP vec2 inside = step(vec2(0.0), cell) * step(cell, vec2(side - 0.5));
-    HS_HIGHP vec2 weight = mix(1.0 - part, part, corner) * inside;
-    HS_HIGHP vec2 stored = hs_unpackOccupancy(
-        texture2D(u_pyramid, (origin + cell + 0.5) * scale));
-    HS_COUNT(1);
-    HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
-    sum += weight.x * weight.y * stored.x * step(0.0, gap) * vec2(1.0, gap);
-    corner = vec2(1.0 - corner.x, corner.y + corner.x * (1.0 - corner.y));
-  }
+  HS_HIGHP vec2 near = (1.0 - part) * step(vec2(0.0), first) * step(first, vec2(side - 0.5));
+  HS_HIGHP vec2 next = part * step(vec2(-1.0), first) * step(first, vec2(side - 1.5));
+  HS_HIGHP vec2 pitch = hs_cellPitch();
+  HS_HIGHP vec2 uv = (hs_levelOrigin(level, side) + first + 0.5) * pitch;
+  HS_HIGHP vec2 uvNext = uv + pitch;
+  HS_HIGHP vec2 sum = near.y * (near.x * hs_cell(uv) + next.x * hs_cell(vec2(uvNext.x, uv.y))) +
+                      next.y * (near.x * hs_cell(vec2(uv.x, uvNext.y)) + next.x * hs_cell(uvNext));
   return sum * (1.0 / 255.0);
 }
 
@@ -70,20 +83,21 @@ HS_HIGHP vec2 hs_blockersAround(HS_HIGHP vec2 widthTexels) {
 // a nearer caster at the rim makes it wide without being in the way, and so does the upper part of a wall at whose foot
 // the fragment lies.
 HS_HIGHP float hs_meanGap() {
-  HS_HIGHP vec2 around = hs_blockersAround(hs_kernel * hs_widestGap);
-  if (around.x <= 0.0) return -1.0;
-  HS_HIGHP float gap = around.y / around.x;
-  HS_HIGHP float part = gap / hs_widestGap;
-  // Of the region that the filter will cover, half a step of an 8-bit image.
-  if (around.x <= 0.002 * part * part) return -1.0;
-  for (int i = 0; i < 4; ++i) {
-    HS_HIGHP float again = clamp(3.4 - 4.0 * part, 0.0, 1.0);
+  HS_HIGHP float asked = hs_widestGap;
+  HS_HIGHP float gap = -1.0;
+  HS_HIGHP float again = 1.0;
+  for (int i = 0; i < 5; ++i) {
+    HS_HIGHP vec2 around = hs_blockersAround(hs_kernel * asked);
+    if (around.x <= 0.0) break;
+    HS_HIGHP float mean = around.y / around.x;
+    HS_HIGHP float part = mean / hs_widestGap;
+    // Of the region that the filter will cover, half a step of an 8-bit image.
+    if (gap < 0.0 && around.x <= 0.002 * part * part) break;
+    HS_HIGHP float trust = gap < 0.0 ? 1.0 : again * min(10.0 * around.x, 1.0);
+    gap = mix(asked, mean, trust);
+    again = clamp(3.4 - 4.0 * gap / asked, 0.0, 1.0);
     if (again <= 0.0) break;
-    HS_HIGHP vec2 nearer = hs_blockersAround(hs_kernel * gap);
-    if (nearer.x <= 0.0) break;
-    HS_HIGHP float next = mix(gap, nearer.y / nearer.x, again * min(10.0 * nearer.x, 1.0));
-    part = next / gap;
-    gap = next;
+    asked = gap;
   }
   return gap;
 }

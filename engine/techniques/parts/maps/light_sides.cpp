@@ -46,7 +46,7 @@ void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShadin
   };
   shading.uniforms.set("u_lightSides", glm::vec4(side(scene.light.halfU), side(scene.light.halfV)));
   shading.itemUniforms = [](const DrawItem& item, device::UniformList& uniforms) {
-    uniforms.set("u_receiver", glm::vec4(item.casts && item.closed ? 1.0f : 0.0f, 0, 0, 0));
+    uniforms.set("u_receiver", glm::vec4(item.casts ? item.solidity : 0.0f, 0, 0, 0));
   };
 }
 
