@@ -36,7 +36,10 @@ SubLightGrid subLightGrid(const scene::AreaLight& light, int perSide) {
   const double longer = std::max(u, v);
   if (!(longer > 0.0)) return {};
   const auto along = [&](double side) {
-    return std::clamp(static_cast<int>(std::lround(perSide * side / longer)), 1, perSide);
+    const double share = perSide * side / longer;
+    // An odd number stays odd, so that there is a sub-light in the middle.
+    const long count = perSide % 2 == 0 ? std::lround(share) : 2 * std::lround(0.5 * (share - 1.0)) + 1;
+    return std::clamp(static_cast<int>(count), 1, perSide);
   };
   return {along(u), along(v)};
 }

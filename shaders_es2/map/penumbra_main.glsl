@@ -30,17 +30,23 @@ float hs_meanVisibility() {
   hs_kernel = u_penumbra.xy * u_subLightShare.xy;
 #endif
   float sum = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
   for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
-    if (above <= 0.0) continue;
+    all += above;
+    // From below the horizon the caster's own body hides the fragment: what a part that reaches above it sees, the
+    // others tell.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
 #ifndef HS_ONE_SEARCH
     hs_widestGap = widestGap;
     width = hs_penumbraWidth();
 #endif
     sum += above * hs_filterOf(width);
+    seen += above;
   }
-  return sum * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+  return sum * (all / (max(seen, 1e-3) * float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V)));
 }
 #else
 float hs_meanVisibility() { return hs_lightAbove() * hs_filterOf(hs_penumbraWidth()); }
