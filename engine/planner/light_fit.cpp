@@ -167,7 +167,7 @@ void LightFitter::measure(std::span<const CasterShape> casters) {
 /// Points are not joined to triangles, so a point behind the light may belong to any of them: wherever a
 /// caster is cut, it is cut inside the box of all points. See LightFitOptions::centerSpread.
 void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
-                              double farDistance, glm::dvec2& low, glm::dvec2& high) const {
+                              double alignedDistance, glm::dvec2& low, glm::dvec2& high) const {
   const auto include = [&](const glm::dvec2& side, double z) {
     low = glm::min(low, (side - centerSpread_) / z), high = glm::max(high, (side + centerSpread_) / z);
   };
@@ -188,8 +188,8 @@ void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, do
   }
   if (anyCut) include(boxLow, nearDistance);
   if (anyCut) include(boxHigh, nearDistance);
-  // Nothing lies beyond the far distance, where all centres agree.
-  low += centerSpread_ / farDistance, high -= centerSpread_ / farDistance;
+  // Nothing lies beyond the distance where all centres agree.
+  low += centerSpread_ / alignedDistance, high -= centerSpread_ / alignedDistance;
 }
 
 LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
@@ -217,12 +217,14 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
+  const double size = std::max(space.halfSize.x, space.halfSize.y);
+  fit.alignedDistance = size > 0.0 ? stepUp(farthest / size) * size : depth.farDistance;
   fit.nearestCaster = std::max(nearest, depth.nearDistance);
   fit.farthestCaster = farthest;
   fit.castersBeforeNear = nearest < depth.nearDistance;
   fit.castersCrossPlane = !(nearest > 0.0);
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
-  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, depth.farDistance, low, high);
+  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, fit.alignedDistance, low, high);
   for (int axis = 0; axis < 2; ++axis) {
     if (low[axis] > options.maxTangent || high[axis] < -options.maxTangent) return fit;
     const Interval tangents = {std::max(low[axis], -options.maxTangent),

@@ -26,6 +26,9 @@ struct LightFit {
   glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
   glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
   double nearDistance = 1.0, farDistance = 2.0;  ///< along z
+  /// Beyond all casters; in steps of the light's size, so that it is the same in whatever units. Of a split
+  /// light, where the places in all its maps agree.
+  double alignedDistance = 2.0;
   /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
   /// long as the scene.
   double nearestCaster = 1.0, farthestCaster = 2.0;
@@ -52,7 +55,7 @@ struct LightFitOptions {
   double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
   double nearShare = 1.0;
   /// Half extent of the centres of sub-lights whose maps share the window, see SubLights; the window then
-  /// holds the casters as each of them sees them, shifted so that they agree at the far distance.
+  /// holds the casters as each of them sees them, shifted so that they agree at alignedDistance.
   glm::dvec2 centerSpread{0.0};
 };
 
@@ -89,8 +92,8 @@ class LightFitter {
   };
   Extent extentOf(const CasterShape& caster) const;
   void measure(std::span<const CasterShape> casters);
-  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance, double farDistance,
-                   glm::dvec2& low, glm::dvec2& high) const;
+  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
+                   double alignedDistance, glm::dvec2& low, glm::dvec2& high) const;
 
   LightSpace space_;
   double nearLightDistance_ = 0.0;

@@ -77,7 +77,6 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
   lights.shared = fitter.fit(
       light, casters, {.mapSize = subLightMapSize(grid, mapSize), .nearShare = 0.0, .centerSpread = spread});
   if (lights.shared.empty) return lights;
-  lights.alignedDistance = lights.shared.farDistance;
   for (int j = 0; j < grid.alongV; ++j) {
     for (int i = 0; i < grid.alongU; ++i) {
       const glm::dvec2 center =
@@ -85,8 +84,8 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
       LightFit& fit = lights.fits.emplace_back(lights.shared);
       fit.halfSize = lights.halfSize;
       fit.lightFromWorld = translated(center) * fit.lightFromWorld;
-      fit.tangentLow -= center / lights.alignedDistance;
-      fit.tangentHigh -= center / lights.alignedDistance;
+      fit.tangentLow -= center / lights.shared.alignedDistance;
+      fit.tangentHigh -= center / lights.shared.alignedDistance;
     }
   }
   return lights;

@@ -58,7 +58,7 @@ TEST(SubLights, PlacesInAllMapsDifferByTheDistanceAlone) {
         const double z = glm::dvec3(split.shared.lightFromWorld * glm::dvec4(point, 1.0)).z;
         const glm::dvec2 expected =
             texelOf(split.shared, point) +
-            split.shared.texelsPerTangent() * step * (1.0 / split.alignedDistance - 1.0 / z);
+            split.shared.texelsPerTangent() * step * (1.0 / split.shared.alignedDistance - 1.0 / z);
         EXPECT_NEAR(glm::length(texelOf(fit, point) - expected), 0.0, 1e-6);
       }
     }

@@ -32,7 +32,7 @@ void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
       glm::abs(stepU) * (0.5 * (split.grid.alongU - 1)) + glm::abs(stepV) * (0.5 * (split.grid.alongV - 1));
   shading.uniforms.set("u_subLightStep", glm::vec4(stepU, stepV));
   shading.uniforms.set("u_subLights",
-                       glm::vec4((1.0 - space.nearDistance / split.alignedDistance) * space.depthUnit,
+                       glm::vec4((1.0 - space.nearDistance / split.shared.alignedDistance) * space.depthUnit,
                                  std::max(spread.x, spread.y), 1.0 / depth.atlasSize, depth.tilesPerSide()));
   const glm::dvec2 whole = glm::max(split.shared.halfSize, glm::dvec2(1e-300));
   shading.uniforms.set("u_subLightShare", glm::vec4(split.halfSize / whole, 0.0, 0.0));
