@@ -39,9 +39,11 @@ void Engine::State::setLights(std::vector<scene::AreaLight> checked) {
       if (!known[k] && castsAlike(checked[i], lights[k])) take(i, k, lightRevisions[k]);
     }
   }
-  // One with other values is the one that stood in its place, if that is not found elsewhere; else it is new.
-  for (std::size_t i = 0; i < checked.size(); ++i) {
-    if (numbers[i] == kNoNumber && i < lights.size() && !known[i]) take(i, i, nextRevision++);
+  // Among as many as before, one with other values is the one that stood in its place, if that is not found
+  // elsewhere; else it is new.
+  const bool asMany = checked.size() == lights.size();
+  for (std::size_t i = 0; asMany && i < checked.size(); ++i) {
+    if (numbers[i] == kNoNumber && !known[i]) take(i, i, nextRevision++);
   }
   for (std::size_t i = 0; i < checked.size(); ++i) {
     if (numbers[i] != kNoNumber) continue;

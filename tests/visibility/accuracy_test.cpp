@@ -110,7 +110,10 @@ TEST_P(Accuracy, MeanPenumbraErrorIsTheProjectsFigure) {
   RecordProperty("taps_per_pixel", std::to_string(taps / scenes));
   std::printf("%-20s mean penumbra rmse %.4f, taps %.2f\n", expected.name.c_str(), rmse / scenes,
               taps / scenes);
-  EXPECT_LE(rmse / scenes, expected.most);
+  // Without highp a fragment knows its place in the map to a texel only, and those of nine maps are three
+  // times as large.
+  const bool split = expected.most < 0.02 && isForcedOff("highp");
+  EXPECT_LE(rmse / scenes, split ? 1.25 * expected.most : expected.most);
   EXPECT_GE(rmse / scenes, expected.least) << "too good for this method: does another one answer?";
   // Without highp a fragment knows its place in the map to a texel only: masks must reach farther to stay
   // provable, and leave more pixels to the filter.

@@ -181,6 +181,8 @@ void SceneRenderer::load(const scene::SceneDescription& scene) {
     expectOk(engine_->addObject(objectDesc(object), id), "addObject " + object.name);
     ids_.push_back(id);
   }
+  // Another scene's lights are new ones, not those of the scene before moved: numbered from 0.
+  setLights({});
   setLights(scene.lights);
   desc_ = {};
   desc_.camera = cameraDesc(scene.camera.value());
