@@ -184,12 +184,18 @@ float hs_visibility() {
 #ifdef HS_SUB_LIGHTS_U
 float hs_meanVisibility() {
   float sum = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
   for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
-    if (above > 0.0) sum += above * hs_visibility();
+    all += above;
+    // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+    sum += above * hs_visibility();
+    seen += above;
   }
-  return sum * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+  return sum * (all / (max(seen, 1e-3) * float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V)));
 }
 #endif
 #endif

@@ -49,12 +49,18 @@ float hs_litByWidths(HS_HIGHP vec2 widest) {
 
 float hs_meanOfWidths(HS_HIGHP vec2 widest) {
   float lit = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
   for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
-    if (above > 0.0) lit += above * hs_litByWidths(widest);
+    all += above;
+    // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+    lit += above * hs_litByWidths(widest);
+    seen += above;
   }
-  return lit;
+  return lit * (all / max(seen, 1e-3));
 }
 #else
 // Places in the atlas are counted on from one sub-light to the next.
