@@ -47,6 +47,9 @@ float hs_maskClass() {
 #endif
   HS_HIGHP float halfWidth = 0.5 * max(kernel.x, kernel.y);
   hs_widestGap = hs_receiverValue - u_penumbra.z;
+  // Blocks at the border answer for what lies beyond it, where no caster is.
+  HS_HIGHP vec2 fromMiddle = abs(hs_texel - 0.5 * u_map.x);
+  HS_HIGHP float outside = max(fromMiddle.x, fromMiddle.y) - 0.5 * u_map.x;
   HS_HIGHP float gapHigh = 0.0;
   HS_HIGHP float reach = 0.0;
   HS_HIGHP float asked = -1.0;
@@ -65,7 +68,7 @@ float hs_maskClass() {
     // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
     gapHigh = (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver;
 #endif
-    if (gapLow >= -bias) return 1.0;
+    if (gapLow >= -bias || outside >= reach) return 1.0;
     hs_widestGap = min(hs_widestGap, -gapLow);
   }
   return gapHigh < -bias - slope * reach ? 0.0 : -1.0;

@@ -39,6 +39,10 @@ float hs_visibility() {
 #endif
 }
 #else
+#include "map/horizon.glsl"
+#ifdef HS_SUB_LIGHTS_U
+#include "map/penumbra_bounds.glsl"
+#endif
 #ifdef HS_CORNERS
 #include "width/width_boxes.glsl"
 #endif
@@ -47,16 +51,24 @@ uniform HS_HIGHP sampler2D u_widthMap;
 #ifndef HS_CORNERS
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 #endif
+#ifdef HS_SUB_LIGHTS_U
+uniform HS_HIGHP vec4 u_widthTile;    // xy: texels per side of a sub-light's map
+#endif
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels of the width map per depth texel, z: margin in texels
 uniform HS_HIGHP vec4 u_widthRange;   // x: largest distance, y: knee of the storage, zw: kernel in texels per unit of depth
-// x: the nearest caster's distance beyond the near distance, in units of it, y: range of casters' distances, z: 1 / depth texels per texel,
-// w: depth units
+// x: the nearest caster's distance beyond the near distance, in units of it, y: range of casters' distances (of a split
+// light both of depths), z: 1 / depth texels per texel, w: depth units
 uniform HS_HIGHP vec4 u_casterDepth;
 
+#ifdef HS_SUB_LIGHTS_U
+// Of a split light depths are stored, not distances.
+HS_HIGHP float hs_casterDepth(HS_HIGHP float normalised) { return u_casterDepth.x + u_casterDepth.y * normalised; }
+#else
 HS_HIGHP float hs_casterDepth(HS_HIGHP float normalisedDistance) {
   HS_HIGHP float distance = u_casterDepth.x + u_casterDepth.y * normalisedDistance;
   return u_casterDepth.w * distance / (1.0 + distance);
 }
+#endif
 
 // Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a
 // signed distance, whose normal has the absolute components `normal`.
@@ -88,10 +100,25 @@ HS_HIGHP float hs_discOutside(HS_HIGHP float radius, HS_HIGHP vec2 widths) {
   return r < 1.0 ? outside : outside * corner * corner;
 }
 
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+// The receiver may be the caster itself. A host's program serves all of its receivers, casting or not.
+#define HS_MAY_CAST
+#endif
+#if defined(HS_SUB_LIGHTS_U) && !defined(HS_CORNERS)
+#include "width/edge_profile.glsl"
+#include "width/sub_light_widths.glsl"
+#else
 float hs_visibility() {
   HS_HIGHP vec2 place = hs_texel * u_widthPlace.xy + u_widthPlace.z;
-  HS_HIGHP vec2 texel = clamp(place, vec2(0.5), u_widthLayout.xy - 0.5);
-  HS_HIGHP vec4 stored = texture2D(u_widthMap, texel * u_widthLayout.zw);
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 size = u_widthTile.xy;
+  HS_HIGHP vec2 corner = hs_tile * size;
+#else
+  HS_HIGHP vec2 size = u_widthLayout.xy;
+  HS_HIGHP vec2 corner = vec2(0.0);
+#endif
+  HS_HIGHP vec2 texel = clamp(place, vec2(0.5), size - 0.5);
+  HS_HIGHP vec4 stored = texture2D(u_widthMap, (corner + texel) * u_widthLayout.zw);
   HS_COUNT(1);
   // No silhouette as far as distances reach.
   if (stored.r < 0.5 / 255.0) return 1.0;
@@ -107,8 +134,7 @@ float hs_visibility() {
   HS_HIGHP float gap = hs_receiverValue - hs_casterDepth(stored.b);
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float ahead = hs_receiverValue - u_bias.x - u_bias.z * slope;
-#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
-  // The receiver may be the caster itself. A host's program serves all of its receivers, casting or not.
+#ifdef HS_MAY_CAST
   bool exact = ahead <= hs_casterDepth(stored.a + 1.0 / 255.0);
 #else
   // Occupied, but perhaps by casters behind the receiver.
@@ -131,7 +157,7 @@ float hs_visibility() {
   HS_HIGHP float level = 0.5 * log2(max(widths.x * widths.y - 2.0, 4.0));
   HS_HIGHP float lower = clamp(floor(level), 1.0, u_boxLayout.z);
   HS_HIGHP float upper = clamp(level - lower, 0.0, 1.0);
-  HS_HIGHP vec4 boxes = hs_boxes(texel, lower);
+  HS_HIGHP vec4 boxes = hs_boxes(texel, lower, corner, size);
   // The silhouette nearest by and the casters of the whole kernel: two opinions on the occluder's depth, of equal
   // weight unless the kernel is too empty for its mean to have any bits.
   HS_HIGHP vec2 mean = mix(boxes.rg, boxes.ba, upper);
@@ -155,12 +181,50 @@ float hs_visibility() {
   return 1.0 - hs_halfPlane(signedTexels, normal, max(u_widthRange.zw * gap, u_casterDepth.z));
 #endif
 }
+#ifdef HS_SUB_LIGHTS_U
+float hs_meanVisibility() {
+  float sum = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
+  for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
+    hs_enterSubLight(float(i));
+    float above = hs_subLightAbove();
+    all += above;
+    // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+    sum += above * hs_visibility();
+    seen += above;
+  }
+  return sum * (all / (max(seen, 1e-3) * float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V)));
+}
+#endif
+#endif
 #endif
 
+#if defined(HS_POINT_LIGHT) || defined(HS_PAPER)
 float halfshadow_visibility() {
   hs_prepare();
   return hs_lightMisses ? 1.0 : hs_visibility();
 }
+#elif defined(HS_SUB_LIGHTS_U)
+float halfshadow_class() {
+  hs_prepare();
+  float known = hs_maskClass();
+  return known > -0.5 ? known * hs_lightAbove() : known;
+}
+
+float halfshadow_visibility() {
+  hs_prepare();
+  float known = hs_maskClass();
+  return known > -0.5 ? known * hs_lightAbove() : hs_meanVisibility();
+}
+#else
+float halfshadow_visibility() {
+  hs_prepare();
+  float above = hs_lightAbove();
+  return hs_lightMisses ? above : above * hs_visibility();
+}
+#endif
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"

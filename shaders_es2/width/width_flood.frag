@@ -2,14 +2,25 @@
 // Copyright (c) 2026 The Halfshadow authors
 // One step of jump flooding: the best of nine known offsets, a stride apart.
 // Based on: Rong, Tan, "Jump Flooding in GPU with Applications to Voronoi Diagram and Distance Transform", 2006.
+// HS_TILES: offsets of other maps of the image do not count.
 #include "width/width_offset.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_offsets;
 uniform HS_HIGHP vec4 u_widthLayout;  // xy: texels per side, zw: 1 / xy
 uniform HS_HIGHP vec4 u_flood;        // x: stride in texels
+#ifdef HS_TILES
+uniform HS_HIGHP vec4 u_widthTile;    // xy: texels per side of a map, zw: 1 / xy
+#endif
 
 void main() {
   HS_HIGHP vec2 cell = floor(v_uv * u_widthLayout.xy) + 0.5;
+#ifdef HS_TILES
+  HS_HIGHP vec2 low = floor(cell * u_widthTile.zw) * u_widthTile.xy;
+  HS_HIGHP vec2 high = low + u_widthTile.xy;
+#else
+  HS_HIGHP vec2 low = vec2(0.0);
+  HS_HIGHP vec2 high = u_widthLayout.xy;
+#endif
   HS_HIGHP vec2 best = vec2(0.0);
   HS_HIGHP float bestLength = 60000.0;
   HS_HIGHP vec2 neighbour = vec2(-1.0);
@@ -21,7 +32,7 @@ void main() {
     // A sixteenth keeps the square of 127 texels inside fp16.
     HS_HIGHP vec2 scaled = offset * (1.0 / 16.0);
     HS_HIGHP float squared = dot(scaled, scaled);
-    HS_HIGHP vec2 inside = step(vec2(0.0), at) * step(at, u_widthLayout.xy);
+    HS_HIGHP vec2 inside = step(low, at) * step(at, high);
     bool usable = hs_offsetKnown(bytes) && inside.x * inside.y > 0.5 && max(abs(offset.x), abs(offset.y)) < 126.0;
     if (usable && squared < bestLength) {
       bestLength = squared;

@@ -138,12 +138,52 @@ TEST_F(ShadowWidthScenes, TwoFetchesWhateverTheScene) {
   for (const char* name : {"spheres27@light=0.3", "figure@light=1"}) {
     renderer().load(builtinScene(name));
     for (const Configuration& configuration :
-         {signedWidth(), paperWidth(), paperWidth({{"shadow-width.neighbours", "3"}}),
+         {signedWidth({{"sub_lights", "1"}}), paperWidth(), paperWidth({{"shadow-width.neighbours", "3"}}),
           paperWidth({{"shadow-width.faces", "back"}})}) {
       const Image taps = renderer().render(configuration, Output::taps);
       for (std::size_t i = 0; i < taps.pixels(); ++i)
         ASSERT_LE(taps.byte(i), 2) << name << configuration.text();
     }
+  }
+}
+
+// Two of the bounds, and one a sub-light; a second one where the receiver may be the caster itself.
+TEST_F(ShadowWidthScenes, OneFetchASubLight) {
+  const PlateOverGround plate;
+  renderer().load(plate.scene());
+  const Image taps = renderer().render(signedWidth({{"sub_lights", "3"}}), Output::taps);
+  int filtered = 0;
+  for (std::size_t i = 0; i < taps.pixels(); ++i) {
+    ASSERT_LE(taps.byte(i), 2 + 2 * 9);
+    filtered += taps.byte(i) > 2;
+  }
+  EXPECT_GT(filtered, 100);
+  // Most pixels are lit or in umbra, which bounds tell.
+  EXPECT_LT(filtered, static_cast<int>(taps.pixels()) / 2);
+}
+
+TEST_F(ShadowWidthScenes, SubLightsKeepThePlatesPenumbra) {
+  const PlateOverGround plate;
+  renderer().load(plate.scene());
+  const std::vector<float> expected = plate.visibilityImage();
+  for (const char* corners : {"auto", "off", "on"}) {
+    const double error =
+        rmse(expected, renderer()
+                           .render(signedWidth({{"sub_lights", "3"}, {"shadow-width.corners", corners}}))
+                           .visibility());
+    std::printf("plate through nine sub-lights, corners %s: %.4f\n", corners, error);
+    EXPECT_LT(error, 0.025) << corners;
+  }
+}
+
+TEST_F(ShadowWidthScenes, SubLightsTakeNoMorePassesThanOneMap) {
+  renderer().load(builtinScene("figure@light=1"));
+  renderer().render(signedWidth({{"sub_lights", "1"}}));
+  const std::size_t one = renderer().report().lightPasses();
+  for (const char* corners : {"auto", "off", "on"}) {
+    renderer().render(signedWidth({{"sub_lights", "3"}, {"shadow-width.corners", corners}}));
+    EXPECT_LE(renderer().report().lightPasses(), one) << corners;
+    EXPECT_EQ(renderer().report().framebufferSwitches, renderer().report().passes.size()) << corners;
   }
 }
 

@@ -36,7 +36,7 @@ struct Planned {
   }
   static SignedWidthMap planMap(const techniques::LightScene& light, techniques::PassPlan& plan) {
     const auto depth = techniques::planLightDepth(light, light.center, plan, MapContent::casters);
-    return techniques::planSignedWidth(light, plan, depth);
+    return techniques::planSignedWidth(light, plan, depth, techniques::WidthCorners::receivers);
   }
   std::vector<std::uint8_t> runMap() {
     return rig.run([](const auto& light, techniques::PassPlan& plan) { return planMap(light, plan).map; });

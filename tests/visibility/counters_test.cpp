@@ -24,7 +24,8 @@ void PrintTo(const Cost& cost, std::ostream* stream) {
 // bounds two sources of blocks and their levels along two axes; occupancy, its second source and its levels
 // 3; the mip chain's edge mask 2; moments 1 and their blur 2. Four slices in pairs, fine and kept, and eight
 // levels and an N-buffer for each of the two textures. Coverage, seeds, six floods from 32 texels to 1, six
-// boxes and their atlas, and the map of widths.
+// boxes and their atlas, and the map of widths; of a split light, whose penumbrae are a third as wide, three
+// floods and three boxes, and its penumbra bounds.
 const std::vector<Cost> kCosts = {
     {{"none"}, 0},
     {{"hard"}, 1},
@@ -37,7 +38,8 @@ const std::vector<Cost> kCosts = {
     {{"pcss-mip"}, 1 + 4 + 3},
     {{"pcf-quantized"}, 1 + 4 + 3},
     {{"occlusion-textures"}, 2 + 2 + 2 * (8 + 1)},
-    {{"shadow-width"}, 1 + 2 + 6 + 7 + 1},
+    {{"shadow-width", {{"sub_lights", "1"}}}, 1 + 2 + 6 + 7 + 1},
+    {{"shadow-width"}, 1 + 2 + 3 + 4 + 1 + 4},
     {{"shadow-volume"}, 0, 1},
     {{"wedges-cells"}, 0},
     {{"wedges-blended"}, 0},

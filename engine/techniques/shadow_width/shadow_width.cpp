@@ -27,9 +27,10 @@ class ShadowWidth final : public Technique {
         .paper = "Kirsch, Doellner 2003; two-sided distances and widths from the light's size: Halfshadow",
         .summary =
             "penumbrae from the distance to the nearest silhouette in the light's map: two fetches a "
-            "receiver",
+            "receiver, or one a sub-light",
         .guarantees =
-            "two fetches per receiver whatever the scene, the light's size and the penumbra's width",
+            "two fetches per receiver whatever the scene, the light's size and the penumbra's width; of a "
+            "split light two for lit and umbra receivers, one more a sub-light for others, two for casters",
         .knownFailures =
             "casters seen through each other are one silhouette; a caster's shadow on itself is soft only "
             "where it leaves the silhouette; lights "
@@ -50,11 +51,14 @@ class ShadowWidth final : public Technique {
          "from the light"},
         {"shadow-width.corners",
          SettingType::choice,
-         "on",
+         "auto",
          0,
          0,
-         {"off", "on"},
-         "correct the straight edge's profile by the occupied share of the kernel (signed)"},
+         {"auto", "off", "on"},
+         "correct the straight edge's profile by the occupied share of the kernel; on: of each receiver's "
+         "own, "
+         "by a further fetch; auto: so too, but of a split light of the farthest receiver's, stored in the "
+         "maps (signed)"},
         {"shadow-width.neighbours",
          SettingType::choice,
          "6",
@@ -118,21 +122,31 @@ class ShadowWidth final : public Technique {
         "seen from the light do not tell that it shadows others only"};
   }
   std::vector<ShaderFamily> shaderFamilies() const override {
+    // Of the passes over the maps of a split light.
+    const ShaderAxis tiles = flag("HS_TILES");
+    ShaderAxis splits = subLightAxis();
+    splits.erase(splits.begin());
     return joined(
         {{fullscreen("width/width_occlusion.frag", {depthAxis(), flag("HS_FARTHEST")}),
           fullscreen("width/width_minimum.frag", {values("HS_NEIGHBOURS", {3, 6})}),
           fullscreen("width/width_coverage.frag",
                      {depthAxis(), range("HS_SAMPLES_S", 1, 16, {1, 4, 16}),
-                      range("HS_SAMPLES_T", 1, 16, {1, 4, 16}), flag("HS_LAST_RECEIVERS")}),
-          fullscreen("width/width_seed.frag"), fullscreen("width/width_flood.frag"),
-          fullscreen("width/width_box.frag"), fullscreen("width/width_tile.frag"),
-          fullscreen("width/width_finish.frag")},
+                      range("HS_SAMPLES_T", 1, 16, {1, 4, 16}), flag("HS_LAST_RECEIVERS"), tiles}),
+          fullscreen("width/width_seed.frag", {tiles}), fullscreen("width/width_flood.frag", {tiles}),
+          fullscreen("width/width_box.frag", {tiles}), fullscreen("width/width_tile.frag"),
+          fullscreen("width/width_finish.frag",
+                     {tiles, {{}, {{"HS_BOXES"}}, {{"HS_BOXES", "HS_CORNER_SHARE"}, {"HS_TILES"}}}})},
          mapReceiverFamilies("width/shadow_width.frag", {{{},
                                                           {{"HS_CORNERS"}},
                                                           {{"HS_POINT_LIGHT"}},
                                                           {{"HS_PAPER"}},
                                                           {{"HS_PAPER", "HS_ATTENUATION_TEXTURE"}}},
-                                                         castingAxis({"!HS_PAPER", "!HS_POINT_LIGHT"})})});
+                                                         castingAxis({"!HS_PAPER", "!HS_POINT_LIGHT"})}),
+         mapReceiverFamilies("width/shadow_width.frag", {flag("HS_CORNERS"), castingAxis(), splits},
+                             {.twoDraws = true})});
+  }
+  SubLightUse subLightUse(const Settings& settings) const override {
+    return settings.choice("shadow-width.preset") == "paper" ? SubLightUse::none : SubLightUse::automatic;
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
@@ -145,21 +159,32 @@ class ShadowWidth final : public Technique {
   }
 
   static Status planSigned(const LightScene& scene, PassPlan& plan) {
-    const LightDepth depth = planLightDepth(scene, scene.center, plan, MapContent::casters);
+    const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "width/shadow_width.frag");
     if (scene.fit().halfSize == glm::dvec2(0.0)) {
       shading.defines.push_back("HS_POINT_LIGHT");
       return {};
     }
-    const SignedWidthMap map = planSignedWidth(scene, plan, depth);
+    const WidthCorners corners = cornersFor(scene);
+    const SignedWidthMap map = planSignedWidth(scene, plan, depth, corners);
     shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
     addSignedWidth(scene, shading, depth, map);
-    if (scene.settings.choice("shadow-width.corners") == "on") {
+    if (depth.subLights == nullptr)
+      addHorizon(scene, depth, shading);
+    else
+      addPenumbraBounds(scene, plan, depth, shading);
+    if (corners == WidthCorners::receivers) {
       shading.defines.push_back("HS_CORNERS");
       addWidthBoxes(shading, map);
     }
     return {};
+  }
+
+  static WidthCorners cornersFor(const LightScene& scene) {
+    const std::string& asked = scene.settings.choice("shadow-width.corners");
+    if (asked == "off") return WidthCorners::off;
+    return asked == "auto" && scene.subLights != nullptr ? WidthCorners::stored : WidthCorners::receivers;
   }
 
   static Status planPaper(const LightScene& scene, PassPlan& plan) {

@@ -20,8 +20,15 @@ constexpr double kRounding = 1e-7;
 constexpr double kLargestShrink = 16.0;
 /// Longer over shorter side of a kernel in texels that are shaped like the light as far as they go.
 constexpr double kLongestKernel = 2.5;
+/// Texels of the widest kernel of a sub-light below which its map is made finer, up to twice.
+constexpr double kSubLightKernel = 8.0;
 
 glm::vec4 layoutUniform(const SignedWidthMap& map) {
+  const glm::dvec2 image = glm::dvec2(map.width, map.height) * static_cast<double>(map.tilesPerSide);
+  return {image, 1.0 / image};
+}
+
+glm::vec4 tileUniform(const SignedWidthMap& map) {
   return {map.width, map.height, 1.0 / map.width, 1.0 / map.height};
 }
 
@@ -31,22 +38,45 @@ glm::vec4 placeUniform(const SignedWidthMap& map) {
 
 glm::vec4 boxUniform(const SignedWidthMap& map) {
   const int rows = (map.boxes.tiles + 1) / 2;
-  return {0.5 / map.width, 1.0 / (rows * map.height), map.boxes.tiles, 0};
+  const double maps = map.tilesPerSide;
+  return {0.5 / (maps * map.width), 1.0 / (rows * maps * map.height), map.boxes.tiles, 0};
 }
 
-/// Distances of casters, less the near distance and in units of it: the nearest, and their range.
-struct CasterDistances {
+/// What the depth map's space is of: the light from its centre, or what its sub-lights share.
+const planner::LightFit& sharedFit(const LightScene& scene) {
+  return scene.subLights == nullptr ? scene.fit() : scene.subLights->shared;
+}
+
+/// The space of one map: with the kernel of what it is seen from.
+MapSpace spaceOfOne(const LightDepth& depth) {
+  MapSpace space = depth.space;
+  if (depth.subLights == nullptr) return space;
+  const planner::SubLights& split = *depth.subLights;
+  const glm::dvec2 share = split.halfSize / glm::max(split.shared.halfSize, glm::dvec2(1e-300));
+  space.kernelTexelsPerDepth = glm::max(space.kernelTexelsPerDepth * share, glm::dvec2(1.0));
+  return space;
+}
+
+/// What 0 … 1 of the map stands for: distances of casters, less the near distance and in units of it; of a
+/// split light depths, with which widths fall evenly.
+struct CasterRange {
   double nearest = 0.0, range = 1.0;
 };
-CasterDistances casterDistances(const planner::LightFit& fit) {
+CasterRange casterRange(const LightScene& scene, const MapSpace& space) {
+  const planner::LightFit& fit = sharedFit(scene);
+  if (scene.subLights != nullptr) {
+    const double nearest = 1.0 - fit.nearDistance / fit.nearestCaster;
+    const double farthest = 1.0 - fit.nearDistance / fit.farthestCaster;
+    return {nearest * space.depthUnit, std::max(farthest - nearest, kRounding) * space.depthUnit};
+  }
   const double rounding = kRounding * fit.farthestCaster / fit.nearDistance;
   return {fit.nearestCaster / fit.nearDistance - 1.0,
           std::max((fit.farthestCaster - fit.nearestCaster) / fit.nearDistance, rounding)};
 }
 
-/// Distances of casters to 0 … 1, the depth between them and empty texels, and the depth of a whole range.
-glm::vec4 casterRange(const planner::LightFit& fit, const MapSpace& space) {
-  const CasterDistances casters = casterDistances(fit);
+/// The same for coverage, the depth between casters and empty texels, and the depth of a whole range.
+glm::vec4 casterRangeUniform(const LightScene& scene, const MapSpace& space) {
+  const CasterRange casters = casterRange(scene, space);
   return {casters.nearest, 1.0 / casters.range, 0.5 * (space.farthestCasterDepth + 1.0) * space.depthUnit,
           1.0 / space.depthUnit};
 }
@@ -62,11 +92,20 @@ glm::dvec2 kernelPerDepth(const MapSpace& space, const glm::dvec2& depthTexelsPe
 glm::dvec2 widestKernel(const LightScene& scene, const MapSpace& space, const SignedWidthMap& map,
                         double casterDepth) {
   const double farthest =
-      1.0 - space.nearDistance / std::max(scene.receiverFarDistance, scene.fit().farthestCaster);
+      1.0 - space.nearDistance / std::max(scene.receiverFarDistance, sharedFit(scene).farthestCaster);
   return kernelPerDepth(space, map.depthTexelsPerTexel) * (farthest - casterDepth);
 }
 glm::dvec2 widestKernel(const LightScene& scene, const MapSpace& space, const SignedWidthMap& map) {
-  return widestKernel(scene, space, map, 1.0 - space.nearDistance / scene.fit().nearestCaster);
+  return widestKernel(scene, space, map, 1.0 - space.nearDistance / sharedFit(scene).nearestCaster);
+}
+
+/// A square kernel's side, see edge_profile.glsl.
+glm::vec4 kernelUniform(const LightScene& scene, const MapSpace& space, const SignedWidthMap& map) {
+  const glm::dvec2 perDepth = kernelPerDepth(space, map.depthTexelsPerTexel) / space.depthUnit;
+  const double side = std::sqrt(perDepth.x * perDepth.y);
+  const glm::dvec2 widest = widestKernel(scene, space, map);
+  return {side, side * casterRange(scene, space).range, std::sqrt(widest.x * widest.y),
+          map.corners == WidthCorners::stored ? 1.0 : 0.0};
 }
 
 /// Boxes up to the widest penumbra.
@@ -97,20 +136,22 @@ struct Step {
 
 void addStep(const LightScene& scene, PassPlan& plan, const LightDepth& depth, const SignedWidthMap& map,
              Step step) {
+  if (map.tilesPerSide > 1) step.defines.emplace_back("HS_TILES");
   PlannedPass pass{.name = scene.name + " " + step.name, .contentKey = step.contentKey};
   if (step.strideTexels > 0) pass.name += " " + std::to_string(step.strideTexels);
   pass.writes = {{.resource = step.target, .initial = framegraph::InitialContent::dontCare}};
   PlannedDraw draw{.program = plan.addProgram({"screen/fullscreen.vert", step.file, std::move(step.defines)}),
                    .textures = std::move(step.sources)};
-  const float mapSize = static_cast<float>(depth.space.mapSize);
-  draw.uniforms.set("u_sourceSize", glm::vec4(mapSize, 1.0f / mapSize, 0, 0));
+  draw.uniforms.set("u_sourceSize", glm::vec4(depth.space.mapSize, 1.0 / depth.atlasSize, 0, 0));
   draw.uniforms.set("u_widthLayout", layoutUniform(map));
+  if (map.tilesPerSide > 1) draw.uniforms.set("u_widthTile", tileUniform(map));
   draw.uniforms.set("u_widthPlace", placeUniform(map));
-  draw.uniforms.set("u_casterRange", casterRange(scene.fit(), depth.space));
+  draw.uniforms.set("u_casterRange", casterRangeUniform(scene, depth.space));
   draw.uniforms.set("u_flood", glm::vec4(step.strideTexels, 0, 0, 0));
   draw.uniforms.set("u_box", glm::vec4(step.boxTexels, 0, 0, 0));
   draw.uniforms.set("u_boxLayout", boxUniform(map));
   draw.uniforms.set("u_widthRange", glm::vec4(map.reachTexels, map.kneeTexels, 0, 0));
+  draw.uniforms.set("u_kernel", kernelUniform(scene, spaceOfOne(depth), map));
   draw.uniforms.set("u_lastMargin", glm::vec4(2.0 * depth.space.quantum * depth.space.depthUnit, 0, 0, 0));
   pass.draws.push_back(std::move(draw));
   plan.passes.push_back(std::move(pass));
@@ -130,12 +171,13 @@ glm::dvec2 depthTexelsPerWidthTexel(const MapSpace& space) {
 static WidthBoxes planWidthBoxes(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
                                  const SignedWidthMap& map) {
   const std::string prefix = scene.name + " width ";
-  WidthBoxes boxes{.tiles = boxTiles(scene, depth.space, map)};
+  WidthBoxes boxes{.tiles = boxTiles(scene, spaceOfOne(depth), map)};
   const int rows = (boxes.tiles + 1) / 2;
+  const int width = map.tilesPerSide * map.width, height = map.tilesPerSide * map.height;
   std::vector<framegraph::ResourceId> levels = {map.coverage};
   for (int level = 0; level <= boxes.tiles; ++level) {
     const auto next = plan.addImage(
-        {.name = prefix + "boxes " + std::to_string(2 << level), .width = map.width, .height = map.height});
+        {.name = prefix + "boxes " + std::to_string(2 << level), .width = width, .height = height});
     // To and fro, so that no level's boxes stand far beside their texels.
     const double neighbour = (level % 2 == 0 ? 1.0 : -1.0) * std::exp2(level);
     addStep(scene, plan, depth, map,
@@ -148,8 +190,8 @@ static WidthBoxes planWidthBoxes(const LightScene& scene, PassPlan& plan, const 
     levels.push_back(next);
   }
   boxes.atlas = plan.addImage({.name = prefix + "box atlas",
-                               .width = 2 * map.width,
-                               .height = rows * map.height,
+                               .width = 2 * width,
+                               .height = rows * height,
                                .lifetime = framegraph::Lifetime::persistent,
                                .filter = framegraph::Filter::linear});
   PlannedPass pass{
@@ -160,11 +202,10 @@ static WidthBoxes planWidthBoxes(const LightScene& scene, PassPlan& plan, const 
     const std::size_t level = static_cast<std::size_t>(tile) + 1;
     const float between =
         static_cast<float>((level % 2 == 0 ? -1.0 : 1.0) * std::exp2(static_cast<double>(level) - 1.0));
-    PlannedDraw draw{
-        .program = plan.addProgram({"screen/fullscreen.vert", "width/width_tile.frag", {}}),
-        .textures = {{.sampler = "u_smallerBoxes", .resource = levels[level]},
-                     {.sampler = "u_largerBoxes", .resource = levels[level + 1]}},
-        .viewport = Rect{(tile % 2) * map.width, (tile / 2) * map.height, map.width, map.height}};
+    PlannedDraw draw{.program = plan.addProgram({"screen/fullscreen.vert", "width/width_tile.frag", {}}),
+                     .textures = {{.sampler = "u_smallerBoxes", .resource = levels[level]},
+                                  {.sampler = "u_largerBoxes", .resource = levels[level + 1]}},
+                     .viewport = Rect{(tile % 2) * width, (tile / 2) * height, width, height}};
     draw.uniforms.set("u_widthLayout", layoutUniform(map));
     draw.uniforms.set("u_box", glm::vec4(between, 0, 0, 0));
     pass.draws.push_back(std::move(draw));
@@ -173,11 +214,18 @@ static WidthBoxes planWidthBoxes(const LightScene& scene, PassPlan& plan, const 
   return boxes;
 }
 
-SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const LightDepth& casters) {
+SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const LightDepth& casters,
+                               WidthCorners corners) {
   LightDepth depth = casters;
-  const MapSpace& space = depth.space;
+  const MapSpace space = spaceOfOne(depth);
   SignedWidthMap map;
+  map.tilesPerSide = depth.tilesPerSide();
+  map.corners = corners;
   map.depthTexelsPerTexel = depthTexelsPerWidthTexel(space);
+  if (depth.subLights != nullptr) {
+    const glm::dvec2 coarse = widestKernel(scene, space, map);
+    map.depthTexelsPerTexel *= std::clamp(std::sqrt(coarse.x * coarse.y) / kSubLightKernel, 0.5, 1.0);
+  }
   // Distances reach kLongestOffset texels: the widest kernel should fit. Where a caster stands next to the
   // light that would cost all others their resolution, so its penumbra is cut, but for lights so large that
   // casters half-way to the farthest have such penumbrae too.
@@ -185,9 +233,9 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
     return (0.5 * glm::length(widestKernel(scene, space, map, casterDepth)) + 1.0) / (kLongestOffset - 1.0);
   };
   const double halfWay =
-      1.0 - 2.0 * space.nearDistance / (scene.fit().nearestCaster + scene.fit().farthestCaster);
+      1.0 - 2.0 * space.nearDistance / (sharedFit(scene).nearestCaster + sharedFit(scene).farthestCaster);
   map.depthTexelsPerTexel *=
-      std::max({1.0, std::min(texelsTooFew(1.0 - space.nearDistance / scene.fit().nearestCaster), 2.0),
+      std::max({1.0, std::min(texelsTooFew(1.0 - space.nearDistance / sharedFit(scene).nearestCaster), 2.0),
                 std::min(texelsTooFew(halfWay), kLargestShrink)});
   // The corner of the widest kernel; one texel more, since the map is interpolated.
   const glm::dvec2 widest = widestKernel(scene, space, map);
@@ -198,8 +246,10 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   const glm::dvec2 inner = glm::ceil(glm::dvec2(space.mapSize) / map.depthTexelsPerTexel);
   // The box atlas repeats the map in two columns.
   const double limit = scene.capabilities.limits.textureSize;
-  const int rows = (boxTiles(scene, space, map) + 1) / 2;
-  const double room = std::min(0.5 * limit - inner.x, limit / rows - inner.y) / 2.0;
+  const bool withBoxes = corners != WidthCorners::off;
+  const int columns = withBoxes ? 2 : 1, rows = withBoxes ? (boxTiles(scene, space, map) + 1) / 2 : 1;
+  const double maps = map.tilesPerSide;
+  const double room = std::min(limit / (columns * maps) - inner.x, limit / (rows * maps) - inner.y) / 2.0;
   map.margin = static_cast<int>(std::max(std::min(map.reachTexels, std::floor(room)), 0.0));
   map.width = static_cast<int>(inner.x) + 2 * map.margin;
   map.height = static_cast<int>(inner.y) + 2 * map.margin;
@@ -208,8 +258,8 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   const auto addTarget = [&](const std::string& name, framegraph::Lifetime lifetime,
                              framegraph::Filter filter) {
     return plan.addImage({.name = prefix + name,
-                          .width = map.width,
-                          .height = map.height,
+                          .width = map.tilesPerSide * map.width,
+                          .height = map.tilesPerSide * map.height,
                           .lifetime = lifetime,
                           .filter = filter});
   };
@@ -222,7 +272,7 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   defines.push_back("HS_SAMPLES_T " + std::to_string(samples.y));
   std::vector<TextureRead> sources = {{"u_depthMap", depth.map}};
   if (!lastReceivers(scene).empty) {
-    const LightDepth last = planLightDepth(scene, scene.center, plan, MapContent::lastReceivers);
+    const LightDepth last = planLightDepths(scene, plan, MapContent::lastReceivers);
     defines.push_back("HS_LAST_RECEIVERS");
     sources.push_back({"u_lastReceivers", last.map});
     depth.contentKey = combineKeys(depth.contentKey, last.contentKey);
@@ -254,11 +304,19 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   }
   map.map = addTarget("map", Lifetime::persistent, Filter::linear);
   const std::uint64_t shape = shapeKey(map);
-  map.boxes = planWidthBoxes(scene, plan, depth, map);
+  std::vector<TextureRead> finished = {{"u_offsets", offsets}, {"u_coverage", coverage}};
+  if (withBoxes) {
+    map.boxes = planWidthBoxes(scene, plan, depth, map);
+    finished.push_back({"u_boxes", map.boxes.atlas});
+  }
+  std::vector<std::string> finishDefines;
+  if (withBoxes) finishDefines.emplace_back("HS_BOXES");
+  if (corners == WidthCorners::stored) finishDefines.emplace_back("HS_CORNER_SHARE");
   addStep(scene, plan, depth, map,
           {.name = "width map",
            .file = "width/width_finish.frag",
-           .sources = {{"u_offsets", offsets}, {"u_coverage", coverage}, {"u_boxes", map.boxes.atlas}},
+           .defines = std::move(finishDefines),
+           .sources = std::move(finished),
            .target = map.map,
            .contentKey = combineKeys(depth.contentKey, shape)});
   return map;
@@ -272,15 +330,19 @@ void addWidthBoxes(ReceiverShading& shading, const SignedWidthMap& map) {
 void addSignedWidth(const LightScene& scene, ReceiverShading& shading, const LightDepth& depth,
                     const SignedWidthMap& map) {
   shading.textures.push_back({.sampler = "u_widthMap", .resource = map.map});
-  const MapSpace& space = depth.space;
+  const MapSpace space = spaceOfOne(depth);
   const glm::dvec2 kernel = kernelPerDepth(space, map.depthTexelsPerTexel) / space.depthUnit;
   const glm::vec4 range(map.reachTexels, map.kneeTexels, kernel.x, kernel.y);
-  const CasterDistances casters = casterDistances(scene.fit());
+  const CasterRange casters = casterRange(scene, space);
   // Narrower than a depth texel, a penumbra is an edge.
   const glm::vec4 casterDepth(casters.nearest, casters.range,
                               1.0 / std::max(map.depthTexelsPerTexel.x, map.depthTexelsPerTexel.y),
                               space.depthUnit);
   shading.uniforms.set("u_widthLayout", layoutUniform(map));
+  if (map.tilesPerSide > 1) {
+    shading.uniforms.set("u_widthTile", tileUniform(map));
+    shading.uniforms.set("u_kernel", kernelUniform(scene, space, map));
+  }
   shading.uniforms.set("u_widthPlace", placeUniform(map));
   shading.uniforms.set("u_widthRange", range);
   shading.uniforms.set("u_casterDepth", casterDepth);

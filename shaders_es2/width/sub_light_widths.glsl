@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Mean visibility over sub-lights: one fetch each, and as little else as can be, since it runs for each of them.
+// HS_MAY_CAST: the receiver may be in the map itself; a second fetch then where it is.
+// Needs horizon.glsl, edge_profile.glsl, and the uniforms of shadow_width.frag.
+
+// Lit share, of what the map stores where the fragment is. width: the kernel's side in texels; corners: weight of what the
+// edge's profile misses.
+float hs_litByEdge(HS_HIGHP vec4 stored, HS_HIGHP float width, HS_HIGHP float corners, HS_HIGHP float leastInside) {
+  HS_HIGHP float share = max(stored.r * (255.0 / 127.0) - 1.0, leastInside);
+  HS_HIGHP float size = abs(share);
+  HS_HIGHP float knee = u_widthRange.y / u_widthRange.x + 1.0;
+  HS_HIGHP float part = hs_smallerPart(size * u_widthRange.y / ((knee - size) * max(width, u_casterDepth.z)));
+  HS_HIGHP float missed = corners * (stored.g * (255.0 / 127.0) - 1.0);
+  return clamp((share < 0.0 ? 1.0 - part : part) - missed, 0.0, 1.0);
+}
+
+// The map holds what the profile misses of kernels of the farthest receiver; narrower ones miss less.
+HS_HIGHP float hs_cornerWeight(HS_HIGHP vec2 widths) { return clamp(widths.x / max(widths.y, 0.01), 0.0, u_kernel.w); }
+
+// Of the nearest caster, for this fragment and for the farthest receiver.
+HS_HIGHP vec2 hs_widestKernels() {
+  return vec2(u_kernel.x * (hs_receiverValue - u_casterDepth.x), u_kernel.z);
+}
+
+#ifdef HS_MAY_CAST
+// Of the sub-light that was entered.
+float hs_litByWidths(HS_HIGHP vec2 widest) {
+  HS_HIGHP vec2 size = u_widthTile.xy;
+  HS_HIGHP vec2 texel = clamp(hs_texel * u_widthPlace.xy + u_widthPlace.z, vec2(0.5), size - 0.5);
+  HS_HIGHP vec4 stored = texture2D(u_widthMap, (hs_tile * size + texel) * u_widthLayout.zw);
+  HS_COUNT(1);
+  HS_HIGHP vec2 widths = widest - u_kernel.y * stored.b;
+  HS_HIGHP float corners = hs_cornerWeight(widths);
+  HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
+  HS_HIGHP float leastInside = -1.0;
+  if (hs_receiverValue - u_bias.x - u_bias.z * slope <= hs_casterDepth(stored.a + 1.0 / 255.0)) {
+    // Only the exact depth knows, and what it finds lit is.
+    HS_HIGHP vec2 center = floor(hs_texel) + 0.5;
+    HS_HIGHP float gap = hs_gap(texture2D(u_depthMap, hs_mapUv(center)), hs_receiver);
+    HS_COUNT(1);
+    if (gap >= min(dot(hs_gradient, center - hs_texel), 0.0) - u_bias.x - u_bias.y * slope) return 1.0;
+    widths.x = max(widths.x, u_kernel.x * -gap);
+    leastInside = 0.0;
+    corners = 0.0;
+  }
+  return hs_litByEdge(stored, widths.x, corners, leastInside);
+}
+
+float hs_meanOfWidths(HS_HIGHP vec2 widest) {
+  float lit = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
+  for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
+    hs_enterSubLight(float(i));
+    float above = hs_subLightAbove();
+    all += above;
+    // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+    lit += above * hs_litByWidths(widest);
+    seen += above;
+  }
+  return lit * (all / max(seen, 1e-3));
+}
+#else
+// Places in the atlas are counted on from one sub-light to the next.
+float hs_meanOfWidths(HS_HIGHP vec2 widest) {
+  HS_HIGHP vec2 perTexel = u_widthPlace.xy * u_widthLayout.zw;
+  HS_HIGHP vec2 tile = u_widthTile.xy * u_widthLayout.zw;
+  HS_HIGHP vec2 low = 0.5 * u_widthLayout.zw;
+  HS_HIGHP vec2 high = tile - low;
+  HS_HIGHP vec2 stepScale = perTexel * (hs_receiverValue - u_subLights.x);
+  HS_HIGHP vec2 stepU = u_subLightStep.xy * stepScale;
+  HS_HIGHP vec2 stepV = u_subLightStep.zw * stepScale;
+  HS_HIGHP vec2 row = hs_texel * perTexel + u_widthPlace.z * u_widthLayout.zw -
+                      0.5 * float(HS_SUB_LIGHTS_U - 1) * stepU - 0.5 * float(HS_SUB_LIGHTS_V - 1) * stepV;
+  HS_HIGHP vec2 corner = vec2(0.0);
+  float lit = 0.0;
+  for (int v = 0; v < HS_SUB_LIGHTS_V; ++v) {
+    HS_HIGHP vec2 uv = row;
+    for (int u = 0; u < HS_SUB_LIGHTS_U; ++u) {
+      HS_HIGHP vec4 stored = texture2D(u_widthMap, corner + clamp(uv, low, high));
+      HS_COUNT(1);
+      HS_HIGHP vec2 widths = widest - u_kernel.y * stored.b;
+      lit += hs_litByEdge(stored, widths.x, hs_cornerWeight(widths), -1.0);
+      uv += stepU;
+      corner.x += tile.x;
+      corner += step(1.0 - low.x, corner.x) * vec2(-1.0, tile.y);
+    }
+    row += stepV;
+  }
+  return lit;
+}
+#endif
+
+float hs_meanVisibility() {
+  return hs_meanOfWidths(hs_widestKernels()) * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+}
