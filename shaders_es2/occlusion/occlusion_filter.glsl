@@ -7,6 +7,11 @@
 uniform HS_HIGHP vec4 u_occlusionLayout;
 // xy: sides of the kernel over its longer one; HS_BOXES > 1: z: side of one of the boxes that make up the kernel
 uniform HS_HIGHP vec4 u_kernelShape;
+#ifdef HS_SUB_LIGHTS_U
+// Maps of HS_SUB_LIGHTS_U x HS_SUB_LIGHTS_V sub-lights stand in rows of a square.
+uniform HS_HIGHP vec4 u_tiles;  // x: maps in a row
+HS_HIGHP vec2 hs_tile;          // whose map is read: column and row
+#endif
 
 #if defined(HS_FILTER_NBUFFER)
 // Levels 0 to 3 at full resolution in a square of four, then samples at an eighth of the kernel's side in a
@@ -14,11 +19,18 @@ uniform HS_HIGHP vec4 u_kernelShape;
 HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
   float coarse = max(level - 3.0, 0.0);
   HS_HIGHP float perSample = exp2(-coarse);
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP float side = ceil(u_occlusionLayout.x * perSample) + 11.0;
+#else
   HS_HIGHP float side = u_occlusionLayout.x * perSample + 11.0;
+#endif
   HS_HIGHP float fullSide = u_occlusionLayout.x + 11.0;
   float row = step(1.5, level);
   HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * fullSide
                                      : vec2(2.0 * fullSide, u_occlusionLayout.x * (1.0 - 2.0 * perSample) + 11.0 * (coarse - 1.0));
+#ifdef HS_SUB_LIGHTS_U
+  origin = origin * u_tiles.x + hs_tile * side;
+#endif
   // Level 0 lies at texel centres, the means of the others where their texels meet.
   HS_HIGHP vec2 local = (level < 0.5 ? texel - 0.5 : texel * perSample) + 5.5;
   return (origin + clamp(local, 0.5, side - 0.5)) * u_occlusionLayout.yz;
@@ -35,8 +47,13 @@ HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
 HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
   HS_HIGHP float perSample = exp2(-level);
   HS_HIGHP float side = u_occlusionLayout.x * perSample;
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_occlusionLayout.x + 2.0, u_occlusionLayout.x - 2.0 * side + 2.0 * (level - 1.0));
+  origin = origin * u_tiles.x + hs_tile * (side + 2.0) + 1.0;
+#else
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(1.0)
                                      : vec2(u_occlusionLayout.x + 3.0, 1.0 + u_occlusionLayout.x - 2.0 * side + 2.0 * (level - 1.0));
+#endif
   return (origin + clamp(texel * perSample, -0.5, side + 0.5)) * u_occlusionLayout.yz;
 }
 // A linear fetch of level l weighs a tent of 2^(l+1) texels, as wide as a box of sqrt(3) 2^l.
@@ -53,7 +70,11 @@ HS_HIGHP vec3 hs_sumBefore(HS_HIGHP sampler2D sums, HS_HIGHP vec2 corner, vec2 t
   HS_COUNT(1);
   HS_HIGHP vec2 last = clamp(corner, 0.0, u_occlusionLayout.x) - 0.5;
   float inside = step(0.0, min(last.x, last.y));
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 place = max(last, 0.5) + (tile * u_tiles.x + hs_tile) * u_occlusionLayout.x;
+#else
   HS_HIGHP vec2 place = max(last, 0.5) + tile * u_occlusionLayout.x;
+#endif
   return floor(texture2D(sums, place * u_occlusionLayout.y).rgb * 255.0 + 0.5) * inside;
 }
 #ifdef HS_SAT_SMOOTH

@@ -34,11 +34,12 @@ uniform HS_HIGHP sampler2D u_occlusion6;
 uniform HS_HIGHP sampler2D u_occlusion7;
 #endif
 
-HS_HIGHP vec2 hs_direction;
+HS_HIGHP vec2 hs_direction;  // towards the light's centre, or that of the sub-light entered
 HS_HIGHP float hs_own;
 HS_HIGHP float hs_sidePerSlice;
-// May the receiver's own surface be in the slices? Else all that is not clearly behind it shadows it, up to where
-// they touch.
+// May the receiver's own surface be in the slices (of any view; of the one that is read)? Else all that is not clearly
+// behind it shadows it, up to where they touch.
+bool hs_ownMayBeInSlices = false;
 bool hs_ownInSlices = false;
 #ifdef HS_CASTING_RECEIVER
 // Of closed casters only the faces towards the light are in slices, so none whose inner side receives: those are seen as
@@ -53,12 +54,31 @@ uniform HS_HIGHP vec4 u_lastRange;  // x: slice units of depth 1, y: slice units
 bool hs_isLast() {
   HS_COUNT(1);
   HS_HIGHP vec2 place = u_slicePlace.xy + hs_direction * (u_slicePlace.z + hs_own * u_slicePlace.w);
+#ifdef HS_SUB_LIGHTS_U
+  place = (clamp(place, 0.0, 1.0) + hs_tile) / u_tiles.x;
+#endif
   HS_HIGHP vec3 bytes = floor(texture2D(u_lastReceivers, place).rgb * 255.0 + 0.5);
   HS_HIGHP float last = dot(bytes, vec3(65536.0, 256.0, 1.0)) * (u_lastRange.x / 16777215.0);
   return hs_own > last - u_lastRange.y;
 }
 #endif
 float hs_visible = 1.0;
+
+#ifdef HS_SUB_LIGHTS_U
+uniform HS_HIGHP vec4 u_subLightStep;  // of the map, per slice unit from where all maps agree; xy along u, zw along v
+HS_HIGHP vec2 hs_centerDirection;
+
+// Counted along u, then along v.
+void hs_enterSubLight(HS_HIGHP float index) {
+  HS_HIGHP float v = floor((index + 0.5) * (1.0 / float(HS_SUB_LIGHTS_U)));
+  HS_HIGHP float u = index - v * float(HS_SUB_LIGHTS_U);
+  HS_HIGHP vec2 apart = (u - 0.5 * float(HS_SUB_LIGHTS_U - 1)) * u_subLightStep.xy +
+                        (v - 0.5 * float(HS_SUB_LIGHTS_V - 1)) * u_subLightStep.zw;
+  hs_direction = hs_centerDirection + apart * (hs_own - 1.0);
+  hs_tile.y = floor((index + 0.5) / u_tiles.x);
+  hs_tile.x = index - hs_tile.y * u_tiles.x;
+}
+#endif
 
 // Where the light's frustum meets plane s, in texels: its middle and its side.
 HS_HIGHP vec2 hs_middle(HS_HIGHP float s) {
@@ -105,30 +125,25 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice
 }
 #endif
 
-float halfshadow_visibility() {
-  // Nearer to the light than every caster, or behind the light.
-  if (v_map.z <= 0.0 || v_map.w <= 0.0) return 1.0;
-  HS_HIGHP float inverseDistance = 1.0 / v_map.w;
-  HS_HIGHP float divisor = u_sliceOwn.x * v_map.w + u_sliceOwn.y;
-  hs_direction = v_map.xy * inverseDistance;
-  hs_own = v_map.z / divisor;
-  hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
-#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
-  hs_ownInSlices = true;
-#ifdef HS_CASTING_RECEIVER
-  // Not compared with ==: drivers differ in what a facing bit is equal to.
-  if (u_innerSide != 0.0) hs_ownInSlices = gl_FrontFacing ? u_innerSide > 0.0 : u_innerSide < 0.0;
+#ifdef HS_CONCENTRIC
+// Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
+// beyond the map see the whole light without a fetch.
+bool hs_beyondMap(HS_HIGHP vec2 share) {
+  HS_HIGHP vec2 beyond = abs(hs_middle(0.0) - 0.5 * u_occlusionLayout.x) -
+                         0.5 * (u_occlusionLayout.x + hs_side(0.0) * u_kernelShape.xy * share);
+  return max(beyond.x, beyond.y) > 0.0;
+}
 #endif
+
+float hs_visibility() {
+  hs_ownInSlices = hs_ownMayBeInSlices;
 #ifdef HS_LAST_RECEIVERS
   if (hs_ownInSlices) hs_ownInSlices = !hs_isLast();
 #endif
-#endif
 #ifdef HS_CONCENTRIC
-  // Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
-  // beyond the map see the whole light without a fetch.
-  HS_HIGHP vec2 beyond = abs(hs_middle(0.0) - 0.5 * u_occlusionLayout.x) - 0.5 * (u_occlusionLayout.x + hs_side(0.0) * u_kernelShape.xy);
-  if (max(beyond.x, beyond.y) > 0.0) return 1.0;
+  if (hs_beyondMap(vec2(1.0))) return 1.0;
 #endif
+  hs_visible = 1.0;
 #ifdef HS_SLICE_DEPTH
   hs_addSlice(u_occlusion0, 0.0, u_slices[0]);
   hs_addSlice(u_occlusion0, 1.0, u_slices[1]);
@@ -188,6 +203,29 @@ float halfshadow_visibility() {
   hs_addSlice(u_occlusion7, 1.0, u_slices[15]);
 #endif
   return clamp(hs_visible, 0.0, 1.0);
+}
+
+#include "map/sub_lights.glsl"
+float halfshadow_visibility() {
+  // Nearer to the light than every caster, or behind the light.
+  if (v_map.z <= 0.0 || v_map.w <= 0.0) return 1.0;
+  HS_HIGHP float inverseDistance = 1.0 / v_map.w;
+  HS_HIGHP float divisor = u_sliceOwn.x * v_map.w + u_sliceOwn.y;
+  hs_direction = v_map.xy * inverseDistance;
+  hs_own = v_map.z / divisor;
+  hs_sidePerSlice = u_sliceOwn.z * divisor * inverseDistance;
+#if defined(HS_CASTING_RECEIVER) || defined(HS_FORWARD)
+  hs_ownMayBeInSlices = true;
+#ifdef HS_CASTING_RECEIVER
+  // Not compared with ==: drivers differ in what a facing bit is equal to.
+  if (u_innerSide != 0.0) hs_ownMayBeInSlices = gl_FrontFacing ? u_innerSide > 0.0 : u_innerSide < 0.0;
+#endif
+#endif
+#ifdef HS_SUB_LIGHTS_U
+  hs_centerDirection = hs_direction;
+  if (hs_beyondMap(vec2(float(HS_SUB_LIGHTS_U), float(HS_SUB_LIGHTS_V)))) return 1.0;
+#endif
+  return hs_meanVisibility();
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

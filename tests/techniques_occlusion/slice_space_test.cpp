@@ -39,7 +39,7 @@ const Case kCases[] = {{SliceProjection::perspective, SliceCenter::light},
 
 /// Place in the map and in slice units of a point of the scene, as the slicing pass draws it.
 glm::dvec3 drawnAt(const SliceSpace& space, const glm::dvec3& world) {
-  const glm::dvec4 clip = space.clipFromWorld * glm::dvec4(world, 1.0);
+  const glm::dvec4 clip = space.views.front().clipFromWorld * glm::dvec4(world, 1.0);
   return (glm::dvec3(clip) / clip.w * 0.5 + 0.5) * glm::dvec3(1.0, 1.0, space.depthSlices);
 }
 

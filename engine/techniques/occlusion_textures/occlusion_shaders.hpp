@@ -5,6 +5,7 @@
 #pragma once
 
 #include "techniques/core/shader_families.hpp"
+#include "techniques/parts/maps/map_shaders.hpp"
 
 namespace halfshadow::techniques {
 
@@ -24,12 +25,15 @@ inline ShaderAxis slotsAxis() {
 
 inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
   const std::vector<std::string> nearest = {"HS_SLICE_DEPTH"};
+  ShaderAxis subLights = subLightAxis();
+  for (std::size_t i = 1; i < subLights.size(); ++i) subLights[i].needs = {"HS_SLICE_DEPTH", "HS_CONCENTRIC"};
   return joined(
       {{{"occlusion/occlusion_slices.vert",
          "occlusion/occlusion_slices.frag",
          {{{}, {{"HS_PACK_DEPTH"}}, {{"HS_SLICE_DEPTH"}}, {{"HS_SLICE_DEPTH", "HS_LAST_RECEIVERS"}}}}},
-        fullscreen("occlusion/occlusion_level.frag", {flag("HS_FIRST_LEVEL")}),
-        fullscreen("occlusion/occlusion_sum.frag", {flag("HS_FIRST_STEP")}),
+        fullscreen("occlusion/occlusion_level.frag", {flag("HS_FIRST_LEVEL"), flag("HS_TILED")}),
+        fullscreen("occlusion/occlusion_sum.frag", {flag("HS_FIRST_STEP"), flag("HS_TILED")}),
+        fullscreen("occlusion/occlusion_mip.frag"),
         fullscreen("map/pyramid_copy.frag")},
        receiverFamilies("occlusion/occlusion_textures.frag", {},
                         {slotsAxis(),
@@ -42,6 +46,7 @@ inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
                          flag("HS_SLICE_DEPTH"),
                          flag("HS_CONCENTRIC"),
                          castingAxis(nearest),
+                         subLights,
                          flag("HS_LAST_RECEIVERS", nearest)})});
 }
 

@@ -148,6 +148,17 @@ class OcclusionTextures final : public Technique {
     return sampledWhereCastersSpread(scene, kWidestSpread);
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return occlusionShaders(kMostBoxes); }
+  SubLightUse subLightUse(const Settings& settings) const override {
+    const Choices choices = readChoices(settings);
+    // Other views than the light's own see the same in an orthographic projection, and the paper has one.
+    const SliceOptions& slicing = choices.slicing;
+    const bool fromLight =
+        slicing.projection == SliceProjection::perspective && slicing.center == SliceCenter::light;
+    return !choices.paper() && fromLight ? SubLightUse::automatic : SubLightUse::none;
+  }
+  int lightMapSize(const Settings& settings, int) const override {
+    return settings.integer("occlusion-textures.map_size");
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 
@@ -156,6 +167,8 @@ class OcclusionPlanner final : public LightPlanner {
   Status plan(const LightScene& scene, PassPlan& plan) override {
     Choices choices = readChoices(scene.settings);
     choices.slicing.receiverFarDistance = scene.receiverFarDistance;
+    choices.slicing.powersOfTwo = choices.filter == SliceFilter::mipmap;
+    if (scene.subLights != nullptr) choices.slicing.grid = scene.subLights->grid;
     if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
@@ -179,12 +192,20 @@ class OcclusionPlanner final : public LightPlanner {
   Status findSpace(const LightScene& scene, const SliceOptions& options) {
     if (space_ && contentKey_ == scene.contentKey && options_ == options) return {};
     space_.reset();
-    auto made = makeSliceSpace(scene.fit(), scene.casterPointsWorld, options);
+    auto made = makeSliceSpace(scene.fit(), scene.casterPointsWorld, options, scene.subLights);
     if (!made) return made.error();
     space_ = std::move(made).value();
     contentKey_ = scene.contentKey;
     options_ = options;
     return {};
+  }
+
+  static void addSubLights(const SliceSpace& space, ReceiverShading& shading) {
+    if (space.grid.whole()) return;
+    shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(space.grid.alongU));
+    shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(space.grid.alongV));
+    shading.uniforms.set("u_subLightStep", glm::vec4(space.stepU, space.stepV));
+    shading.uniforms.set("u_tiles", glm::vec4(space.columns, 0, 0, 0));
   }
 
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
@@ -204,7 +225,8 @@ class OcclusionPlanner final : public LightPlanner {
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item,
+      const glm::dvec3 middle = 0.5 * (space.views.front().originWorld + space.views.back().originWorld);
+      shading.itemUniforms = [origin = middle](const DrawItem& item,
                                                           device::UniformList& uniforms) {
         const device::Cull hidden = hiddenFaces(item, origin);
         uniforms.set("u_innerSide",
@@ -217,6 +239,7 @@ class OcclusionPlanner final : public LightPlanner {
       if (choices.filter == SliceFilter::summedArea) shading.defines.push_back("HS_SAT_SMOOTH");
     }
     if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
+    addSubLights(space, shading);
     for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
       shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
     }

@@ -15,31 +15,53 @@ using framegraph::ResourceId;
 
 /// Filtered levels in one texture, as occlusion_filter.glsl computes it from the map's side. Level l holds
 /// means over 2^l x 2^l texels, at every texel up to level 3, then at an eighth of the kernel's side: the
-/// means of level l vary no faster. (At a quarter, penumbra RMSE is .0016 larger.)
+/// means of level l vary no faster. (At a quarter, penumbra RMSE is .0016 larger.) Each level of all views'
+/// maps is one block.
 struct LevelLayout {
   static constexpr int kFinestLevels = 3;
   static constexpr int kPad =
       5;  ///< samples outside the map on each side: as far as any level's kernels reach
   int mapSize = 256;
+  int columns = 1;
   int stride(int level) const { return 1 << std::max(0, level - kFinestLevels); }
-  int side(int level) const { return mapSize / stride(level) + 2 * kPad + 1; }
+  /// Only that of the last level may not divide evenly.
+  int side(int level) const { return (mapSize + stride(level) - 1) / stride(level) + 2 * kPad + 1; }
+  int block(int level) const { return columns * side(level); }
   /// The four full-size levels in a square, the others in a column to their right.
   Rect rect(int level) const {
-    if (level <= kFinestLevels) return {level % 2 * side(0), level / 2 * side(0), side(level), side(level)};
+    const int block0 = block(0);
+    if (level <= kFinestLevels) return {level % 2 * block0, level / 2 * block0, block(level), block(level)};
     int y = 0;
-    for (int l = kFinestLevels + 1; l < level; ++l) y += side(l);
-    return {2 * side(0), y, side(level), side(level)};
+    for (int l = kFinestLevels + 1; l < level; ++l) y += block(l);
+    return {2 * block0, y, block(level), block(level)};
   }
-  int width() const { return 2 * side(0) + side(kFinestLevels + 1); }
-  int height() const { return 2 * side(0); }
+  int width() const { return 2 * block(0) + block(kFinestLevels + 1); }
+  int height() const { return 2 * block(0); }
 };
 
-/// Where a mip level lies in its atlas: as parts/maps lays out the blocker pyramid.
-Rect mipRect(int mapSize, int level) {
-  const int side = mapSize >> level;
-  if (level == 0) return {1, 1, side, side};
-  return {mapSize + 3, 1 + mapSize - 2 * side + 2 * (level - 1), side, side};
-}
+/// Mip levels in one atlas: as parts/maps lays out the blocker pyramid; of several views, each map with a
+/// margin of one texel.
+struct MipLayout {
+  int mapSize = 256;
+  int columns = 1;
+  bool tiled = false;
+  Rect rect(int level) const {
+    const int side = mapSize >> level;
+    if (tiled) {
+      const int block = columns * (side + 2);
+      if (level == 0) return {0, 0, block, block};
+      return {columns * (mapSize + 2), columns * (mapSize - 2 * side + 2 * (level - 1)), block, block};
+    }
+    if (level == 0) return {1, 1, side, side};
+    return {mapSize + 3, 1 + mapSize - 2 * side + 2 * (level - 1), side, side};
+  }
+  int width() const {
+    return tiled ? columns * (mapSize + mapSize / 2 + 4) : mapSize + mapSize / 2 + 4;
+  }
+  int height(int lastLevel) const {
+    return tiled ? columns * (mapSize + 2 * lastLevel) : mapSize + 2 * lastLevel + 2;
+  }
+};
 
 int levelCovering(double texels, int mapSize) {
   int level = 1;
@@ -58,6 +80,14 @@ struct Builder {
   std::string prefix;
   std::uint64_t key;
 
+  bool tiled() const { return !space.grid.whole(); }
+  /// Of shaders that tell one view's map from the next, and what they need for it.
+  void tell(std::vector<std::string>& defines, device::UniformList& uniforms, int sourceSide) const {
+    if (!tiled()) return;
+    defines.emplace_back("HS_TILED");
+    uniforms.set("u_tiles", glm::vec4(space.columns, sourceSide, 0, 0));
+  }
+
   ResourceId target(const std::string& name, int width, int height, Filter filter) const {
     return plan.addImage({.name = prefix + name,
                           .width = width,
@@ -75,13 +105,19 @@ PlannedDraw copyDraw(PassPlan& plan, ResourceId source, const Rect& target) {
 }
 
 ResourceId planMipmaps(const Builder& b, ResourceId source, int lastLevel) {
-  const int size = b.space.mapSize;
-  const auto atlas = b.target(" mip atlas", size + size / 2 + 4, size + 2 * lastLevel + 2, Filter::linear);
+  const MipLayout layout{.mapSize = b.space.mapSize, .columns = b.space.columns, .tiled = b.tiled()};
+  const auto atlas = b.target(" mip atlas", layout.width(), layout.height(lastLevel), Filter::linear);
   PlannedPass pass{.name = b.prefix + " mip atlas",
                    .writes = {{.resource = atlas}},
                    .contentKey = combineKeys(b.key, 0x3121u + static_cast<std::uint64_t>(lastLevel))};
-  for (int level = 0; level <= lastLevel; ++level)
-    pass.draws.push_back(copyDraw(b.plan, source, mipRect(size, level)));
+  for (int level = 0; level <= lastLevel; ++level) {
+    PlannedDraw draw = copyDraw(b.plan, source, layout.rect(level));
+    if (b.tiled()) {
+      draw.program = b.plan.addProgram({"screen/fullscreen.vert", "occlusion/occlusion_mip.frag", {}});
+      draw.uniforms.set("u_tiles", glm::vec4(b.space.columns, b.space.mapSize >> level, 0, 0));
+    }
+    pass.draws.push_back(std::move(draw));
+  }
   b.plan.passes.push_back(std::move(pass));
   return atlas;
 }
@@ -89,18 +125,18 @@ ResourceId planMipmaps(const Builder& b, ResourceId source, int lastLevel) {
 /// Based on: Décoret, "N-buffers for efficient depth map query", 2005 (each level from the one before), with
 /// sums instead of maxima: Eisemann, Décoret 2006, section 3.2.
 ResourceId planNBuffer(const Builder& b, ResourceId source, int lastLevel) {
-  const LevelLayout layout{.mapSize = b.space.mapSize};
+  const LevelLayout layout{.mapSize = b.space.mapSize, .columns = b.space.columns};
   std::vector<ResourceId> levels;
   for (int level = 0; level <= lastLevel; ++level) {
     std::vector<std::string> defines;
     if (level == 0) defines.push_back("HS_FIRST_LEVEL");
     const int side = layout.side(level);
     const std::string name = " level " + std::to_string(level);
-    const auto target = b.target(name, side, side, Filter::nearest);
+    const auto target = b.target(name, layout.block(level), layout.block(level), Filter::nearest);
     // Sample i of a level lies at stride (i - pad) (level 0: half a texel further).
     const auto pad = static_cast<float>(LevelLayout::kPad);
     const double stride = layout.stride(level), before = level > 0 ? layout.stride(level - 1) : 1.0;
-    const float sourceSide = static_cast<float>(level == 0 ? layout.mapSize : layout.side(level - 1));
+    const int sourceSide = level == 0 ? layout.mapSize : layout.side(level - 1);
     // Target index -> texel coordinate in the source, of the first of the four boxes and the step to the
     // next.
     glm::vec4 place(side, 1.0f, -pad, 0.0f);
@@ -111,12 +147,13 @@ ResourceId planNBuffer(const Builder& b, ResourceId source, int lastLevel) {
     }
     device::UniformList uniforms;
     uniforms.set("u_place", place);
+    b.tell(defines, uniforms, sourceSide);
     addFilterPass(b.plan, {.name = b.prefix + name,
                            .fragmentFile = "occlusion/occlusion_level.frag",
                            .defines = defines,
                            .source = level == 0 ? source : levels.back(),
                            .target = target,
-                           .sourceSize = static_cast<int>(sourceSide),
+                           .sourceSize = layout.columns * sourceSide,
                            .contentKey = combineKeys(b.key, 0x6b0u + static_cast<std::uint64_t>(level)),
                            .sampler = "u_source",
                            .uniforms = std::move(uniforms)});
@@ -135,21 +172,22 @@ ResourceId planNBuffer(const Builder& b, ResourceId source, int lastLevel) {
 /// Prefix sums along rows, then along columns, four texels at a time (log4 of the side passes each): counts
 /// of 24 bits in red, green and blue, the texture's four channels in four tiles.
 ResourceId planSummedArea(const Builder& b, ResourceId source) {
-  const int size = b.space.mapSize;
+  const int side = b.space.mapSize, size = b.space.atlasSize();
   ResourceId current = source;
   for (int direction = 0; direction < 2; ++direction) {
-    for (int stride = 1; stride < size; stride *= 4) {
+    for (int stride = 1; stride < side; stride *= 4) {
       const bool first = direction == 0 && stride == 1;
       std::vector<std::string> defines;
       if (first) defines.push_back("HS_FIRST_STEP");
       const std::string name = std::string(direction == 0 ? " row" : " column") + " sums of " +
-                               std::to_string(std::min(4 * stride, size));
+                               std::to_string(std::min(4 * stride, side));
       const auto target = b.target(name, 2 * size, 2 * size, Filter::nearest);
       const glm::vec4 step(direction == 0 ? stride : 0, direction == 1 ? stride : 0, size, 0);
-      const glm::vec4 quantum(countOfFullTexel(size), 0, 0, 0);
+      const glm::vec4 quantum(countOfFullTexel(side), 0, 0, 0);
       device::UniformList uniforms;
       uniforms.set("u_step", step);
       uniforms.set("u_quantum", quantum);
+      b.tell(defines, uniforms, side);
       addFilterPass(b.plan, {.name = b.prefix + name,
                              .fragmentFile = "occlusion/occlusion_sum.frag",
                              .defines = defines,
@@ -171,25 +209,26 @@ Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, 
                                        const SliceTextures& slices, SliceFilter filter) {
   FilteredSlices result;
   const int size = space.mapSize;
-  const LevelLayout layout{.mapSize = size};
+  const LevelLayout layout{.mapSize = size, .columns = space.columns};
   int lastLevel = levelCovering(space.widestTexels, size);
-  int width = 2 * size, height = 2 * size;
+  int width = 2 * space.atlasSize(), height = 2 * space.atlasSize();
   if (filter == SliceFilter::mipmap) {
     while ((size >> lastLevel) < 2) --lastLevel;
-    width = size + size / 2 + 4;
-    height = size + 2 * lastLevel + 2;
+    const MipLayout mips{.mapSize = size, .columns = space.columns, .tiled = !space.grid.whole()};
+    width = mips.width();
+    height = mips.height(lastLevel);
   } else if (filter == SliceFilter::nbuffer) {
     width = layout.width();
     height = layout.height();
   }
   if (const int limit = scene.capabilities.limits.textureSize; std::max(width, height) > limit) {
-    return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
+    return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(space.atlasSize()) +
                                                  " needs a texture of " + std::to_string(width) + "x" +
                                                  std::to_string(height) + ", but this device's limit is " +
                                                  std::to_string(limit) + "; choose a smaller map"};
   }
   result.layout = filter == SliceFilter::summedArea
-                      ? glm::vec4(size, 0.5 / size, 256.0 / countOfFullTexel(size), 0)
+                      ? glm::vec4(size, 0.5 / space.atlasSize(), 256.0 / countOfFullTexel(size), 0)
                       : glm::vec4(size, 1.0 / width, 1.0 / height, lastLevel);
   for (std::size_t i = 0; i < slices.textures.size(); ++i) {
     const Builder builder{plan, space, scene.name + " occlusion " + std::to_string(i + 1),

@@ -36,34 +36,47 @@ std::uint64_t spaceKey(std::uint64_t seed, const SliceSpace& space) {
   seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
   seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.sideScale);
   seed = keyOf(seed, space.depthSlices);
+  seed = combineKeys(seed, static_cast<std::uint64_t>(space.grid.alongU * 16 + space.grid.alongV));
   for (const Slice& slice : space.slices) seed = keyOf(keyOf(seed, slice.casterLow), slice.high);
   return seed;
 }
 
 /// The faces that the centre of projection sees.
-MeshDraw facing(const SliceSpace& space, std::span<const DrawItem> items) {
+MeshDraw facing(const SliceView& view, std::span<const DrawItem> items) {
   return {.items = items,
-          .clipFromWorld = space.clipFromWorld,
+          .clipFromWorld = view.clipFromWorld,
           .faces = MeshDraw::Faces::turned,
-          .eyeWorld = space.originWorld};
+          .eyeWorld = view.originWorld};
 }
 
-PlannedDraw casterDraw(const SliceSpace& space, SliceContent content, std::span<const DrawItem> items) {
-  PlannedDraw draw;
-  MeshDraw meshes = facing(space, items);
-  if (content == SliceContent::nearestFaces) {
+/// `draw` for each view, into its part of an atlas; `meshes` says what of it is drawn.
+template <typename Meshes>
+void addToTiles(PlannedPass& pass, const SliceSpace& space, int tileSide, PlannedDraw draw, Meshes meshes) {
+  for (std::size_t i = 0; i < space.views.size(); ++i) {
+    draw.what = meshes(space.views[i]);
+    draw.viewport = space.tile(i, tileSide);
+    pass.draws.push_back(draw);
+  }
+}
+
+void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int tileSide,
+                PlannedDraw draw, std::span<const DrawItem> items) {
+  const bool nearest = content == SliceContent::nearestFaces;
+  if (nearest) {
     draw.state.depth = {.test = device::Compare::less, .write = true};
   } else {
-    meshes.faces = MeshDraw::Faces::all;
     // Ones add up to at least one and are clamped there: whatever the order, the texel is occupied.
     draw.state.blend = {
         .enabled = true, .source = device::BlendFactor::one, .destination = device::BlendFactor::one};
   }
-  draw.what = meshes;
-  return draw;
+  addToTiles(pass, space, tileSide, std::move(draw), [&](const SliceView& view) {
+    MeshDraw meshes = facing(view, items);
+    if (!nearest) meshes.faces = MeshDraw::Faces::all;
+    return meshes;
+  });
 }
 
-/// Of slice passes: slice units of depth 1, 1 / texels per side, and the least depth from a caster to what it
+/// Of slice passes: slice units of depth 1, 1 / texels of the atlas per side, and the least depth from a caster to what it
 /// shadows: two steps of the stored depth.
 glm::vec4 depthUniform(const SliceSpace& space, int size) {
   return {space.depthSlices, 1.0 / size, 2.0 / 16777215.0, 0};
@@ -74,11 +87,12 @@ struct LastReceiverDepth {
   std::uint64_t contentKey = 0;
 };
 std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, PassPlan& plan,
-                                                   const SliceSpace& space, int size) {
+                                                   const SliceSpace& space, int tileSide) {
   // Without highp no comparison tells a ground from what lies on it.
   if (!scene.capabilities.has(device::Capability::highp)) return std::nullopt;
   LastReceivers last = lastReceivers(scene);
   if (last.empty) return std::nullopt;
+  const int size = space.columns * tileSide;
   const std::string name = scene.name + " occlusion last receivers";
   LastReceiverDepth result{.contentKey = combineKeys(spaceKey(last.contentKey, space), 3)};
   result.map = plan.addImage(
@@ -95,12 +109,12 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
       .program = plan.addProgram(
           {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
   draw.state.depth = {.test = device::Compare::greater, .write = true};
-  draw.what = facing(space, plan.keep(std::move(last.drawn)));
-  pass.draws.push_back(draw);
-  SliceSpace flat = space;
-  flat.clipFromWorld = almostInfinitelyFar(flat.clipFromWorld);
-  draw.what = facing(flat, plan.keep(std::move(last.infinite)));
-  pass.draws.push_back(std::move(draw));
+  const auto drawn = plan.keep(std::move(last.drawn)), infinite = plan.keep(std::move(last.infinite));
+  addToTiles(pass, space, tileSide, draw, [&](const SliceView& view) { return facing(view, drawn); });
+  addToTiles(pass, space, tileSide, draw, [&](SliceView view) {
+    view.clipFromWorld = almostInfinitelyFar(view.clipFromWorld);
+    return facing(view, infinite);
+  });
   plan.passes.push_back(std::move(pass));
   return result;
 }
@@ -111,12 +125,13 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
   const bool nearest = content == SliceContent::nearestFaces;
   SliceTextures result{.slicesPerTexture = nearest ? 2 : 4};
   result.contentKey = combineKeys(spaceKey(scene.contentKey, space), nearest ? 2 : 1);
-  const int size = nearest ? 2 * space.mapSize : space.mapSize;
+  const int tileSide = nearest ? 2 * space.mapSize : space.mapSize;
+  const int size = space.columns * tileSide;
   std::vector<std::string> defines;
   std::optional<LastReceiverDepth> last;
   if (nearest) {
     defines.push_back("HS_SLICE_DEPTH");
-    last = planLastReceivers(scene, plan, space, size);
+    last = planLastReceivers(scene, plan, space, tileSide);
     if (last) {
       defines.push_back("HS_LAST_RECEIVERS");
       result.lastReceivers = last->map;
@@ -131,8 +146,8 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
     const std::string name = prefix + "slices " + std::to_string(first + 1) + "-" + std::to_string(end);
     const std::uint64_t key = combineKeys(result.contentKey, first + 1);
     framegraph::ResourceDesc desc{.name = name,
-                                  .width = space.mapSize,
-                                  .height = space.mapSize,
+                                  .width = space.atlasSize(),
+                                  .height = space.atlasSize(),
                                   .lifetime = framegraph::Lifetime::persistent};
     if (filter == SliceFilter::mipmap) {
       desc.mipmapped = true;
@@ -158,15 +173,14 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
       pass.writes.push_back({.resource = depth, .point = framegraph::AttachmentPoint::depth});
     }
     pass.contentKey = key;
-    PlannedDraw draw = casterDraw(space, content, scene.casters);
-    draw.program =
-        plan.addProgram({"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines});
+    PlannedDraw draw{.program = plan.addProgram(
+                         {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines})};
     const ChannelBorders borders = channelBorders(space, first, result.slicesPerTexture);
     draw.uniforms.set("u_sliceLow", borders.low);
     draw.uniforms.set("u_sliceHigh", borders.high);
     draw.uniforms.set("u_sliceDepth", depthUniform(space, size));
     if (last) draw.textures = {{.sampler = "u_lastReceivers", .resource = last->map}};
-    pass.draws.push_back(std::move(draw));
+    addCasters(pass, space, content, tileSide, std::move(draw), scene.casters);
     plan.passes.push_back(std::move(pass));
     if (nearest) {
       // A linear fetch at a corner of four fine texels is their mean.

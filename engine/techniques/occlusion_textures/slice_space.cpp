@@ -3,6 +3,7 @@
 #include "techniques/occlusion_textures/slice_space.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -49,6 +50,27 @@ double pyramidOffset(const planner::LightFit& fit, const std::vector<glm::dvec3>
   return offset;
 }
 
+void setTiles(const SliceOptions& options, SliceSpace& space) {
+  space.grid = options.grid;
+  space.columns = options.grid.tilesPerSide();
+  if (options.powersOfTwo) space.columns = static_cast<int>(std::bit_ceil(static_cast<unsigned>(space.columns)));
+  space.mapSize = options.powersOfTwo ? options.mapSize / space.columns
+                                      : planner::subLightMapSize(options.grid, options.mapSize);
+}
+
+/// Of all views, in the light's plane.
+std::vector<glm::dvec2> viewCenters(const planner::SubLights* split) {
+  if (split == nullptr) return {glm::dvec2(0.0)};
+  std::vector<glm::dvec2> centers;
+  for (int j = 0; j < split->grid.alongV; ++j) {
+    for (int i = 0; i < split->grid.alongU; ++i) {
+      centers.push_back((i - 0.5 * (split->grid.alongU - 1)) * split->stepU +
+                        (j - 0.5 * (split->grid.alongV - 1)) * split->stepV);
+    }
+  }
+  return centers;
+}
+
 /// Sorts slices into those that triangles (three points each) touch and the others.
 void sortSlices(const std::vector<double>& borders, const std::vector<double>& pointSlices,
                 SliceSuccessors successors, SliceSpace& space) {
@@ -73,7 +95,7 @@ void sortSlices(const std::vector<double>& borders, const std::vector<double>& p
 }  // namespace
 
 Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
-                                  const SliceOptions& options) {
+                                  const SliceOptions& options, const planner::SubLights* split) {
   if (options.slices < 4 || options.slices > 16) {
     return Error{ErrorCode::invalidArgument, "occlusion-textures.slices=" + std::to_string(options.slices) +
                                                  " is outside 4-16; choose 4, 8, 12 or 16"};
@@ -98,7 +120,7 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
                  "no caster lies in front of the light, so there is nothing to slice"};
   }
   SliceSpace space;
-  space.mapSize = options.mapSize;
+  setTiles(options, space);
   const double offset =
       perspective && options.center == SliceCenter::behind ? pyramidOffset(fit, points) : 0.0;
   space.offsetDistance = offset;
@@ -116,9 +138,18 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   };
 
   // The map's extent: tangents seen from the centre of projection, or lengths.
+  // Views agree at the farthest casters; nearer ones lie apart by this times the difference of their 1/z.
+  const std::vector<glm::dvec2> centers = viewCenters(split);
+  glm::dvec2 spread(0.0);
+  for (const glm::dvec2& c : centers) spread = glm::max(spread, glm::abs(c));
   Interval sides[2];
   for (int axis = 0; axis < 2; ++axis) {
-    for (const glm::dvec3& p : points) sides[axis].include(perspective ? p[axis] / (p.z + offset) : p[axis]);
+    for (const glm::dvec3& p : points) {
+      const double apart = spread[axis] * std::max(1.0 / p.z - qFar, 0.0);
+      const double place = perspective ? p[axis] / (p.z + offset) : p[axis];
+      sides[axis].include(place - apart);
+      sides[axis].include(place + apart);
+    }
     const double limit = perspective ? kMaxTangent : std::numeric_limits<double>::infinity();
     sides[axis] = {std::max(sides[axis].low, -limit), std::min(sides[axis].high, limit)};
     if (!(sides[axis].high >= sides[axis].low)) {
@@ -127,11 +158,11 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     }
     // Casters seen edge-on, or as a point.
     const double least = std::max(size * kLeastThickness, depth.high * kRounding) / (perspective ? far : 1.0);
-    const double usable = options.mapSize - 2.0 * options.borderTexels;
-    sides[axis].grow(std::max(sides[axis].extent(), least) * options.mapSize / usable);
+    const double usable = space.mapSize - 2.0 * options.borderTexels;
+    sides[axis].grow(std::max(sides[axis].extent(), least) * space.mapSize / usable);
   }
   // Filters are square: stretch the smaller side until the light's frustum is square in texels.
-  const glm::dvec2 light = fit.halfSize;
+  const glm::dvec2 light = split != nullptr ? split->halfSize : fit.halfSize;
   if (std::max(light.x, light.y) > 0.0) {
     const double ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
                                        : kLargestStretch;
@@ -158,7 +189,7 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   mapFromLight[0][0] = unit / extent.x;
   mapFromLight[1][1] = unit / extent.y;
   mapFromLight[2][3] = unit;
-  const double side = options.mapSize * 2.0 * longest;
+  const double side = space.mapSize * 2.0 * longest;
   glm::dmat4 clipFromLight(0.0);
   if (perspective) {
     // s = (qNear (z + offset) - 1) / ((qNear - qFar) (z + offset))
@@ -183,7 +214,10 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
         glm::dvec4((2.0 * space.center - 1.0) * offset, depthScale * (qNear * offset - 1.0) - offset, offset);
     // Homogeneous coordinates near 1: they cross the rasteriser as mediump varyings.
     clipFromLight *= unit;
-    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld) * glm::dvec4(0, 0, -offset, 1));
+    if (split != nullptr) {
+      space.stepU = split->stepU / (scale * extent);
+      space.stepV = split->stepV / (scale * extent);
+    }
   } else {
     const double scale = 1.0 / (far - near);
     mapFromLight[2][2] = scale * unit;
@@ -200,10 +234,20 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     clipFromLight[1][1] = 2.0 / extent.y;
     clipFromLight[2][2] = depthScale;
     clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -near * depthScale - 1.0, 1.0);
-    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
   }
   space.mapFromWorld = mapFromLight * fit.lightFromWorld;
-  space.clipFromWorld = clipFromLight * fit.lightFromWorld;
+  const glm::dmat4 worldFromLight = glm::inverse(fit.lightFromWorld);
+  for (const glm::dvec2& c : centers) {
+    // A view from c: x - c + c z / far instead of x.
+    glm::dmat4 clip = clipFromLight;
+    for (int axis = 0; axis < 2; ++axis) {
+      clip[2][axis] += clip[axis][axis] * c[axis] * qFar;
+      clip[3][axis] -= clip[axis][axis] * c[axis];
+    }
+    space.views.push_back(
+        {.clipFromWorld = clip * fit.lightFromWorld,
+         .originWorld = glm::dvec3(worldFromLight * glm::dvec4(c, -space.offsetDistance, 1.0))});
+  }
 
   std::vector<double> borders, pointSlices;
   for (int k = 0; k <= options.slices; ++k) {
