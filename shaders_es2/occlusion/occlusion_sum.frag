@@ -4,11 +4,11 @@
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
 uniform HS_HIGHP vec4 u_sourceSize;  // x: texels per side, y: 1 / x
-uniform HS_HIGHP vec4 u_step;        // xy: distance of the partial sums in texels, z: side of a tile
+uniform HS_HIGHP vec4 u_step;        // xy: distance of the partial sums in texels, z: side of a channel's part
 uniform HS_HIGHP vec4 u_quantum;     // x: count of a full texel
 #ifdef HS_TILED
-// Several maps in rows of a square, each summed up for itself.
-uniform HS_HIGHP vec4 u_tiles;  // x: maps in a row, y: texels per side of one
+// Several maps in rows, each summed up for itself.
+uniform HS_HIGHP vec4 u_tiles;  // xy: columns and rows, zw: texels of a map
 #endif
 
 void main() {
@@ -19,7 +19,7 @@ void main() {
   vec4 channel = vec4((1.0 - tile.y) * vec2(1.0 - tile.x, tile.x), tile.y * vec2(1.0 - tile.x, tile.x));
 #endif
 #ifdef HS_TILED
-  HS_HIGHP vec2 origin = floor((local + 0.5) / u_tiles.y) * u_tiles.y;
+  HS_HIGHP vec2 origin = floor((local + 0.5) / u_tiles.zw) * u_tiles.zw;
   local -= origin;
 #else
   const vec2 origin = vec2(0.0);

@@ -55,7 +55,7 @@ bool hs_isLast() {
   HS_COUNT(1);
   HS_HIGHP vec2 place = u_slicePlace.xy + hs_direction * (u_slicePlace.z + hs_own * u_slicePlace.w);
 #ifdef HS_SUB_LIGHTS_U
-  place = (clamp(place, 0.0, 1.0) + hs_tile) / u_tiles.x;
+  place = (clamp(place, 0.0, 1.0) + hs_tile) * u_tiles.zw / u_occlusionLayout.x;
 #endif
   HS_HIGHP vec3 bytes = floor(texture2D(u_lastReceivers, place).rgb * 255.0 + 0.5);
   HS_HIGHP float last = dot(bytes, vec3(65536.0, 256.0, 1.0)) * (u_lastRange.x / 16777215.0);
@@ -65,16 +65,23 @@ bool hs_isLast() {
 float hs_visible = 1.0;
 
 #ifdef HS_SUB_LIGHTS_U
-uniform HS_HIGHP vec4 u_subLightStep;  // of the map, per slice unit from where all maps agree; xy along u, zw along v
+#if HS_SUB_LIGHTS_U > HS_SUB_LIGHTS_V
+#define HS_MORE_SUB_LIGHTS float(HS_SUB_LIGHTS_U)
+#else
+#define HS_MORE_SUB_LIGHTS float(HS_SUB_LIGHTS_V)
+#endif
+uniform HS_HIGHP vec4 u_subLightStep;  // of the map, per slice unit; xy along u, zw along v
+uniform HS_HIGHP vec4 u_subLights;     // x: own s at which all maps agree
 HS_HIGHP vec2 hs_centerDirection;
+HS_HIGHP vec2 hs_apart;  // of the sub-light entered from the light's centre, as u_subLightStep
 
 // Counted along u, then along v.
 void hs_enterSubLight(HS_HIGHP float index) {
   HS_HIGHP float v = floor((index + 0.5) * (1.0 / float(HS_SUB_LIGHTS_U)));
   HS_HIGHP float u = index - v * float(HS_SUB_LIGHTS_U);
-  HS_HIGHP vec2 apart = (u - 0.5 * float(HS_SUB_LIGHTS_U - 1)) * u_subLightStep.xy +
-                        (v - 0.5 * float(HS_SUB_LIGHTS_V - 1)) * u_subLightStep.zw;
-  hs_direction = hs_centerDirection + apart * (hs_own - 1.0);
+  hs_apart = (u - 0.5 * float(HS_SUB_LIGHTS_U - 1)) * u_subLightStep.xy +
+             (v - 0.5 * float(HS_SUB_LIGHTS_V - 1)) * u_subLightStep.zw;
+  hs_direction = hs_centerDirection + hs_apart * (hs_own - u_subLights.x);
   hs_tile.y = floor((index + 0.5) / u_tiles.x);
   hs_tile.x = index - hs_tile.y * u_tiles.x;
 }
@@ -82,7 +89,7 @@ void hs_enterSubLight(HS_HIGHP float index) {
 
 // Where the light's frustum meets plane s, in texels: its middle and its side.
 HS_HIGHP vec2 hs_middle(HS_HIGHP float s) {
-  return (u_slicePlace.xy + hs_direction * (u_slicePlace.z + s * u_slicePlace.w)) * u_occlusionLayout.x;
+  return (u_slicePlace.xy + hs_direction * (u_slicePlace.z + s * u_slicePlace.w)) * hs_mapTexels;
 }
 HS_HIGHP float hs_side(HS_HIGHP float s) { return max((hs_own - s) * hs_sidePerSlice, 0.0); }
 
@@ -100,6 +107,34 @@ void hs_combine(float covered) {
 HS_HIGHP float hs_meanPlane(vec2 covered, HS_HIGHP vec4 slice) {
   return mix(slice.x, slice.y, clamp(covered.y / max(covered.x, 1.0 / 255.0), 0.0, 1.0));
 }
+#ifdef HS_ONE_SEARCH
+// The plane where occluders lie, one for all sub-lights: what one of them sees of the part of the slice that the whole
+// light's frustum covers. Sections of farther slices lie inside those of nearer ones: whatever hides an occluder there
+// from that sub-light is found before it.
+HS_HIGHP float hs_planes[HS_SLOTS];  // -1: none
+bool hs_occluded = false;
+void hs_searchSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice, out HS_HIGHP float found) {
+  found = -1.0;
+  if (hs_own > slice.x) {
+    HS_HIGHP vec2 middle = (u_slicePlace.xy + hs_centerDirection + hs_apart * (slice.x - u_subLights.x)) * hs_mapTexels;
+    vec2 covered = hs_pairMean(occlusion, pair, middle, hs_side(slice.x) * HS_MORE_SUB_LIGHTS);
+    if (covered.x > 0.5 / 255.0) {
+      found = min(hs_meanPlane(covered, slice), hs_own);
+      hs_occluded = true;
+    }
+  }
+}
+void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice, HS_HIGHP float plane) {
+  if (plane >= 0.0) {
+    vec2 covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
+    HS_HIGHP float before = (hs_own - hs_meanPlane(covered, slice)) * slice.z;
+    hs_combine(covered.x * clamp(hs_ownInSlices ? before / slice.w - 1.0 : 128.0 * before + 1.0, 0.0, 1.0));
+  }
+}
+#define HS_SEARCH(texture, pair, i) hs_searchSlice(texture, pair, u_slices[i], hs_planes[i]);
+#define HS_ADD(texture, pair, i) hs_addSlice(texture, pair, u_slices[i], hs_planes[i]);
+#else
+#define HS_ADD(texture, pair, i) hs_addSlice(texture, pair, u_slices[i]);
 // First over the slice's middle plane; then again over the plane where the occluders are found to lie.
 void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) {
   if (hs_own > slice.x) {
@@ -114,6 +149,44 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) 
     }
   }
 }
+#endif
+#define HS_SLICES0(each) each(u_occlusion0, 0.0, 0) each(u_occlusion0, 1.0, 1)
+#if HS_TEXTURES > 1
+#define HS_SLICES1(each) each(u_occlusion1, 0.0, 2) each(u_occlusion1, 1.0, 3)
+#else
+#define HS_SLICES1(each)
+#endif
+#if HS_TEXTURES > 2
+#define HS_SLICES2(each) each(u_occlusion2, 0.0, 4) each(u_occlusion2, 1.0, 5)
+#else
+#define HS_SLICES2(each)
+#endif
+#if HS_TEXTURES > 3
+#define HS_SLICES3(each) each(u_occlusion3, 0.0, 6) each(u_occlusion3, 1.0, 7)
+#else
+#define HS_SLICES3(each)
+#endif
+#if HS_TEXTURES > 4
+#define HS_SLICES4(each) each(u_occlusion4, 0.0, 8) each(u_occlusion4, 1.0, 9)
+#else
+#define HS_SLICES4(each)
+#endif
+#if HS_TEXTURES > 5
+#define HS_SLICES5(each) each(u_occlusion5, 0.0, 10) each(u_occlusion5, 1.0, 11)
+#else
+#define HS_SLICES5(each)
+#endif
+#if HS_TEXTURES > 6
+#define HS_SLICES6(each) each(u_occlusion6, 0.0, 12) each(u_occlusion6, 1.0, 13)
+#else
+#define HS_SLICES6(each)
+#endif
+#if HS_TEXTURES > 7
+#define HS_SLICES7(each) each(u_occlusion7, 0.0, 14) each(u_occlusion7, 1.0, 15)
+#else
+#define HS_SLICES7(each)
+#endif
+#define HS_SLICES(each) HS_SLICES0(each) HS_SLICES1(each) HS_SLICES2(each) HS_SLICES3(each) HS_SLICES4(each) HS_SLICES5(each) HS_SLICES6(each) HS_SLICES7(each)
 #else
 // The slice that contains the receiver fades in between its two borders.
 void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice) {
@@ -123,14 +196,16 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice
     hs_combine(hs_channelMean(occlusion, channel, hs_middle(plane), hs_side(plane)) * fade);
   }
 }
+#define HS_ROW_OF(texture, row, first) hs_addSlice(texture, vec2(0.0, row), u_slices[first]); hs_addSlice(texture, vec2(1.0, row), u_slices[first + 1]);
+#define HS_SLICES_OF(texture, first) HS_ROW_OF(texture, 0.0, first) HS_ROW_OF(texture, 1.0, first + 2)
 #endif
 
 #ifdef HS_CONCENTRIC
 // Seen from the light's centre all frustum sections share their middle, and the first is the widest: receivers
 // beyond the map see the whole light without a fetch.
 bool hs_beyondMap(HS_HIGHP vec2 share) {
-  HS_HIGHP vec2 beyond = abs(hs_middle(0.0) - 0.5 * u_occlusionLayout.x) -
-                         0.5 * (u_occlusionLayout.x + hs_side(0.0) * u_kernelShape.xy * share);
+  HS_HIGHP vec2 beyond = abs(hs_middle(0.0) - 0.5 * hs_mapTexels) -
+                         0.5 * (hs_mapTexels + hs_side(0.0) * u_kernelShape.xy * share);
   return max(beyond.x, beyond.y) > 0.0;
 }
 #endif
@@ -145,62 +220,18 @@ float hs_visibility() {
 #endif
   hs_visible = 1.0;
 #ifdef HS_SLICE_DEPTH
-  hs_addSlice(u_occlusion0, 0.0, u_slices[0]);
-  hs_addSlice(u_occlusion0, 1.0, u_slices[1]);
+  HS_SLICES(HS_ADD)
 #else
-  hs_addSlice(u_occlusion0, vec2(0.0, 0.0), u_slices[0]);
-  hs_addSlice(u_occlusion0, vec2(1.0, 0.0), u_slices[1]);
-  hs_addSlice(u_occlusion0, vec2(0.0, 1.0), u_slices[2]);
-  hs_addSlice(u_occlusion0, vec2(1.0, 1.0), u_slices[3]);
-#endif
+  HS_SLICES_OF(u_occlusion0, 0)
 #if HS_TEXTURES > 1
-#ifdef HS_SLICE_DEPTH
-  hs_addSlice(u_occlusion1, 0.0, u_slices[2]);
-  hs_addSlice(u_occlusion1, 1.0, u_slices[3]);
-#else
-  hs_addSlice(u_occlusion1, vec2(0.0, 0.0), u_slices[4]);
-  hs_addSlice(u_occlusion1, vec2(1.0, 0.0), u_slices[5]);
-  hs_addSlice(u_occlusion1, vec2(0.0, 1.0), u_slices[6]);
-  hs_addSlice(u_occlusion1, vec2(1.0, 1.0), u_slices[7]);
-#endif
+  HS_SLICES_OF(u_occlusion1, 4)
 #endif
 #if HS_TEXTURES > 2
-#ifdef HS_SLICE_DEPTH
-  hs_addSlice(u_occlusion2, 0.0, u_slices[4]);
-  hs_addSlice(u_occlusion2, 1.0, u_slices[5]);
-#else
-  hs_addSlice(u_occlusion2, vec2(0.0, 0.0), u_slices[8]);
-  hs_addSlice(u_occlusion2, vec2(1.0, 0.0), u_slices[9]);
-  hs_addSlice(u_occlusion2, vec2(0.0, 1.0), u_slices[10]);
-  hs_addSlice(u_occlusion2, vec2(1.0, 1.0), u_slices[11]);
-#endif
+  HS_SLICES_OF(u_occlusion2, 8)
 #endif
 #if HS_TEXTURES > 3
-#ifdef HS_SLICE_DEPTH
-  hs_addSlice(u_occlusion3, 0.0, u_slices[6]);
-  hs_addSlice(u_occlusion3, 1.0, u_slices[7]);
-#else
-  hs_addSlice(u_occlusion3, vec2(0.0, 0.0), u_slices[12]);
-  hs_addSlice(u_occlusion3, vec2(1.0, 0.0), u_slices[13]);
-  hs_addSlice(u_occlusion3, vec2(0.0, 1.0), u_slices[14]);
-  hs_addSlice(u_occlusion3, vec2(1.0, 1.0), u_slices[15]);
+  HS_SLICES_OF(u_occlusion3, 12)
 #endif
-#endif
-#if HS_TEXTURES > 4
-  hs_addSlice(u_occlusion4, 0.0, u_slices[8]);
-  hs_addSlice(u_occlusion4, 1.0, u_slices[9]);
-#endif
-#if HS_TEXTURES > 5
-  hs_addSlice(u_occlusion5, 0.0, u_slices[10]);
-  hs_addSlice(u_occlusion5, 1.0, u_slices[11]);
-#endif
-#if HS_TEXTURES > 6
-  hs_addSlice(u_occlusion6, 0.0, u_slices[12]);
-  hs_addSlice(u_occlusion6, 1.0, u_slices[13]);
-#endif
-#if HS_TEXTURES > 7
-  hs_addSlice(u_occlusion7, 0.0, u_slices[14]);
-  hs_addSlice(u_occlusion7, 1.0, u_slices[15]);
 #endif
   return clamp(hs_visible, 0.0, 1.0);
 }
@@ -224,6 +255,11 @@ float halfshadow_visibility() {
 #ifdef HS_SUB_LIGHTS_U
   hs_centerDirection = hs_direction;
   if (hs_beyondMap(vec2(float(HS_SUB_LIGHTS_U), float(HS_SUB_LIGHTS_V)))) return 1.0;
+#endif
+#ifdef HS_ONE_SEARCH
+  hs_enterSubLight(float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V / 2));
+  HS_SLICES(HS_SEARCH)
+  if (!hs_occluded) return 1.0;
 #endif
   return hs_meanVisibility();
 }

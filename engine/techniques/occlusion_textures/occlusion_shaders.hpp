@@ -4,8 +4,8 @@
 /// Variants of the shaders of occlusion textures.
 #pragma once
 
+#include "planner/sub_lights.hpp"
 #include "techniques/core/shader_families.hpp"
-#include "techniques/parts/maps/map_shaders.hpp"
 
 namespace halfshadow::techniques {
 
@@ -23,10 +23,25 @@ inline ShaderAxis slotsAxis() {
   return axis;
 }
 
+/// Any grid, with a search for each sub-light or one for all.
+inline ShaderAxis gridAxis(const std::vector<std::string>& needs) {
+  ShaderAxis axis = {{}};
+  for (int u = 1; u <= planner::kMostSubLightsPerSide; ++u) {
+    for (int v = 1; v <= planner::kMostSubLightsPerSide; ++v) {
+      if (u * v == 1) continue;
+      std::vector<std::string> defines = {"HS_SUB_LIGHTS_U " + std::to_string(u),
+                                          "HS_SUB_LIGHTS_V " + std::to_string(v)};
+      axis.push_back({defines, needs, u == 3 && v == 3});
+      defines.emplace_back("HS_ONE_SEARCH");
+      axis.push_back({std::move(defines), needs, u == 2 && v == 2});
+    }
+  }
+  return axis;
+}
+
 inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
   const std::vector<std::string> nearest = {"HS_SLICE_DEPTH"};
-  ShaderAxis subLights = subLightAxis();
-  for (std::size_t i = 1; i < subLights.size(); ++i) subLights[i].needs = {"HS_SLICE_DEPTH", "HS_CONCENTRIC"};
+  const std::vector<std::string> split = {"HS_SLICE_DEPTH", "HS_CONCENTRIC"};
   return joined(
       {{{"occlusion/occlusion_slices.vert",
          "occlusion/occlusion_slices.frag",
@@ -46,7 +61,7 @@ inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
                          flag("HS_SLICE_DEPTH"),
                          flag("HS_CONCENTRIC"),
                          castingAxis(nearest),
-                         subLights,
+                         gridAxis(split),
                          flag("HS_LAST_RECEIVERS", nearest)})});
 }
 

@@ -31,6 +31,8 @@ struct Choices {
   SliceFilter filter = SliceFilter::nbuffer;
   std::string combine;
   SliceOptions slicing;
+  /// Who names a number of sub-lights wants its accuracy; `auto` weighs what it costs.
+  bool oneSearch = false;
   bool paper() const { return preset == Preset::paper; }
 };
 
@@ -47,6 +49,8 @@ Choices readChoices(const Settings& settings) {
                                         : SliceFilter::nbuffer;
   choices.combine = choice("combine");
   if (choices.combine == "auto") choices.combine = choices.paper() ? "product" : "sum";
+  choices.oneSearch = settings.choice("sub_lights") == "auto";
+  if(getenv("HS_ONE")) choices.oneSearch=atoi(getenv("HS_ONE"));
   SliceOptions& slicing = choices.slicing;
   slicing.slices = settings.integer("occlusion-textures.slices");
   slicing.mapSize = settings.integer("occlusion-textures.map_size");
@@ -168,7 +172,10 @@ class OcclusionPlanner final : public LightPlanner {
     Choices choices = readChoices(scene.settings);
     choices.slicing.receiverFarDistance = scene.receiverFarDistance;
     choices.slicing.powersOfTwo = choices.filter == SliceFilter::mipmap;
-    if (scene.subLights != nullptr) choices.slicing.grid = scene.subLights->grid;
+    if (scene.subLights != nullptr) {
+      choices.slicing.grid = scene.subLights->grid;
+      choices.slicing.borderTexels = 1;  // the filters give each map a margin of its own
+    }
     if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
@@ -200,12 +207,14 @@ class OcclusionPlanner final : public LightPlanner {
     return {};
   }
 
-  static void addSubLights(const SliceSpace& space, ReceiverShading& shading) {
+  static void addSubLights(const SliceSpace& space, bool oneSearch, ReceiverShading& shading) {
     if (space.grid.whole()) return;
     shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(space.grid.alongU));
     shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(space.grid.alongV));
+    if (oneSearch) shading.defines.emplace_back("HS_ONE_SEARCH");
     shading.uniforms.set("u_subLightStep", glm::vec4(space.stepU, space.stepV));
-    shading.uniforms.set("u_tiles", glm::vec4(space.columns, 0, 0, 0));
+    shading.uniforms.set("u_subLights", glm::vec4(space.alignedSlice, 0, 0, 0));
+    shading.uniforms.set("u_tiles", glm::vec4(space.tiles, space.mapSize));
   }
 
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
@@ -239,7 +248,7 @@ class OcclusionPlanner final : public LightPlanner {
       if (choices.filter == SliceFilter::summedArea) shading.defines.push_back("HS_SAT_SMOOTH");
     }
     if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
-    addSubLights(space, shading);
+    addSubLights(space, choices.oneSearch, shading);
     for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
       shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
     }

@@ -33,7 +33,7 @@ std::uint64_t keyOf(std::uint64_t seed, double value) {
 }
 
 std::uint64_t spaceKey(std::uint64_t seed, const SliceSpace& space) {
-  seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
+  seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize.x * 65536 + space.mapSize.y));
   seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.sideScale);
   seed = keyOf(seed, space.depthSlices);
   seed = combineKeys(seed, static_cast<std::uint64_t>(space.grid.alongU * 16 + space.grid.alongV));
@@ -51,15 +51,15 @@ MeshDraw facing(const SliceView& view, std::span<const DrawItem> items) {
 
 /// `draw` for each view, into its part of an atlas; `meshes` says what of it is drawn.
 template <typename Meshes>
-void addToTiles(PlannedPass& pass, const SliceSpace& space, int tileSide, PlannedDraw draw, Meshes meshes) {
+void addToTiles(PlannedPass& pass, const SliceSpace& space, int scale, PlannedDraw draw, Meshes meshes) {
   for (std::size_t i = 0; i < space.views.size(); ++i) {
     draw.what = meshes(space.views[i]);
-    draw.viewport = space.tile(i, tileSide);
+    draw.viewport = space.tile(i, scale);
     pass.draws.push_back(draw);
   }
 }
 
-void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int tileSide,
+void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int scale,
                 PlannedDraw draw, std::span<const DrawItem> items) {
   const bool nearest = content == SliceContent::nearestFaces;
   if (nearest) {
@@ -69,7 +69,7 @@ void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content
     draw.state.blend = {
         .enabled = true, .source = device::BlendFactor::one, .destination = device::BlendFactor::one};
   }
-  addToTiles(pass, space, tileSide, std::move(draw), [&](const SliceView& view) {
+  addToTiles(pass, space, scale, std::move(draw), [&](const SliceView& view) {
     MeshDraw meshes = facing(view, items);
     if (!nearest) meshes.faces = MeshDraw::Faces::all;
     return meshes;
@@ -87,12 +87,12 @@ struct LastReceiverDepth {
   std::uint64_t contentKey = 0;
 };
 std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, PassPlan& plan,
-                                                   const SliceSpace& space, int tileSide) {
+                                                   const SliceSpace& space, int scale) {
   // Without highp no comparison tells a ground from what lies on it.
   if (!scene.capabilities.has(device::Capability::highp)) return std::nullopt;
   LastReceivers last = lastReceivers(scene);
   if (last.empty) return std::nullopt;
-  const int size = space.columns * tileSide;
+  const int size = scale * space.atlasSize;
   const std::string name = scene.name + " occlusion last receivers";
   LastReceiverDepth result{.contentKey = combineKeys(spaceKey(last.contentKey, space), 3)};
   result.map = plan.addImage(
@@ -110,8 +110,8 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
           {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
   draw.state.depth = {.test = device::Compare::greater, .write = true};
   const auto drawn = plan.keep(std::move(last.drawn)), infinite = plan.keep(std::move(last.infinite));
-  addToTiles(pass, space, tileSide, draw, [&](const SliceView& view) { return facing(view, drawn); });
-  addToTiles(pass, space, tileSide, draw, [&](SliceView view) {
+  addToTiles(pass, space, scale, draw, [&](const SliceView& view) { return facing(view, drawn); });
+  addToTiles(pass, space, scale, draw, [&](SliceView view) {
     view.clipFromWorld = almostInfinitelyFar(view.clipFromWorld);
     return facing(view, infinite);
   });
@@ -125,13 +125,13 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
   const bool nearest = content == SliceContent::nearestFaces;
   SliceTextures result{.slicesPerTexture = nearest ? 2 : 4};
   result.contentKey = combineKeys(spaceKey(scene.contentKey, space), nearest ? 2 : 1);
-  const int tileSide = nearest ? 2 * space.mapSize : space.mapSize;
-  const int size = space.columns * tileSide;
+  const int scale = nearest ? 2 : 1;
+  const int size = scale * space.atlasSize;
   std::vector<std::string> defines;
   std::optional<LastReceiverDepth> last;
   if (nearest) {
     defines.push_back("HS_SLICE_DEPTH");
-    last = planLastReceivers(scene, plan, space, tileSide);
+    last = planLastReceivers(scene, plan, space, scale);
     if (last) {
       defines.push_back("HS_LAST_RECEIVERS");
       result.lastReceivers = last->map;
@@ -146,8 +146,8 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
     const std::string name = prefix + "slices " + std::to_string(first + 1) + "-" + std::to_string(end);
     const std::uint64_t key = combineKeys(result.contentKey, first + 1);
     framegraph::ResourceDesc desc{.name = name,
-                                  .width = space.atlasSize(),
-                                  .height = space.atlasSize(),
+                                  .width = space.atlasSize,
+                                  .height = space.atlasSize,
                                   .lifetime = framegraph::Lifetime::persistent};
     if (filter == SliceFilter::mipmap) {
       desc.mipmapped = true;
@@ -180,7 +180,7 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
     draw.uniforms.set("u_sliceHigh", borders.high);
     draw.uniforms.set("u_sliceDepth", depthUniform(space, size));
     if (last) draw.textures = {{.sampler = "u_lastReceivers", .resource = last->map}};
-    addCasters(pass, space, content, tileSide, std::move(draw), scene.casters);
+    addCasters(pass, space, content, scale, std::move(draw), scene.casters);
     plan.passes.push_back(std::move(pass));
     if (nearest) {
       // A linear fetch at a corner of four fine texels is their mean.

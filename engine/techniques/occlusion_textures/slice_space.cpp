@@ -50,12 +50,34 @@ double pyramidOffset(const planner::LightFit& fit, const std::vector<glm::dvec3>
   return offset;
 }
 
-void setTiles(const SliceOptions& options, SliceSpace& space) {
+/// Side of the largest tiles of which `count` stand side by side: a multiple of 8, for the levels of filters.
+int tileSide(int atlasSize, int count) { return count == 1 ? atlasSize : atlasSize / count / 8 * 8; }
+
+/// Maps are as wide and as high as their content asks for: a row of posts in tiles side by side would have a
+/// quarter of the texels that it has in tiles one above the other.
+void setTiles(const SliceOptions& options, const glm::dvec2& extent, SliceSpace& space) {
+  constexpr int kLeastSide = 48;
+  constexpr double kClearlyFiner = 0.9;  // than square tiles
   space.grid = options.grid;
-  space.columns = options.grid.tilesPerSide();
-  if (options.powersOfTwo) space.columns = static_cast<int>(std::bit_ceil(static_cast<unsigned>(space.columns)));
-  space.mapSize = options.powersOfTwo ? options.mapSize / space.columns
-                                      : planner::subLightMapSize(options.grid, options.mapSize);
+  space.atlasSize = options.mapSize;
+  const int count = options.grid.count();
+  const auto roundUp = [&](int n) {
+    return options.powersOfTwo ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(n))) : n;
+  };
+  const auto coarseness = [&](const glm::ivec2& size) {
+    return std::max(extent.x / size.x, extent.y / size.y);
+  };
+  space.tiles = glm::ivec2(roundUp(options.grid.tilesPerSide()));
+  space.mapSize = glm::ivec2(tileSide(options.mapSize, space.tiles.x));
+  double least = kClearlyFiner * coarseness(space.mapSize);
+  for (int i = 1; i <= count; ++i) {
+    const int columns = roundUp(i), rows = roundUp((count + columns - 1) / columns);
+    const glm::ivec2 size(tileSide(options.mapSize, columns), tileSide(options.mapSize, rows));
+    if (std::min(size.x, size.y) < kLeastSide || coarseness(size) >= least) continue;
+    least = coarseness(size);
+    space.tiles = {columns, rows};
+    space.mapSize = size;
+  }
 }
 
 /// Of all views, in the light's plane.
@@ -120,7 +142,6 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
                  "no caster lies in front of the light, so there is nothing to slice"};
   }
   SliceSpace space;
-  setTiles(options, space);
   const double offset =
       perspective && options.center == SliceCenter::behind ? pyramidOffset(fit, points) : 0.0;
   space.offsetDistance = offset;
@@ -138,14 +159,16 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   };
 
   // The map's extent: tangents seen from the centre of projection, or lengths.
-  // Views agree at the farthest casters; nearer ones lie apart by this times the difference of their 1/z.
+  // Views agree in the middle of the slices; elsewhere they lie apart by this times the difference of 1/z.
   const std::vector<glm::dvec2> centers = viewCenters(split);
   glm::dvec2 spread(0.0);
   for (const glm::dvec2& c : centers) spread = glm::max(spread, glm::abs(c));
+  space.alignedSlice = 0.5;
+  const double qAligned = 0.5 * (qNear + qFar);
   Interval sides[2];
   for (int axis = 0; axis < 2; ++axis) {
     for (const glm::dvec3& p : points) {
-      const double apart = spread[axis] * std::max(1.0 / p.z - qFar, 0.0);
+      const double apart = spread[axis] * std::abs(1.0 / p.z - qAligned);
       const double place = perspective ? p[axis] / (p.z + offset) : p[axis];
       sides[axis].include(place - apart);
       sides[axis].include(place + apart);
@@ -158,14 +181,22 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     }
     // Casters seen edge-on, or as a point.
     const double least = std::max(size * kLeastThickness, depth.high * kRounding) / (perspective ? far : 1.0);
-    const double usable = space.mapSize - 2.0 * options.borderTexels;
-    sides[axis].grow(std::max(sides[axis].extent(), least) * space.mapSize / usable);
+    if (sides[axis].extent() < least) sides[axis].grow(least);
   }
   // Filters are square: stretch the smaller side until the light's frustum is square in texels.
   const glm::dvec2 light = split != nullptr ? split->halfSize : fit.halfSize;
+  double ratio = 1.0;
   if (std::max(light.x, light.y) > 0.0) {
-    const double ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
-                                       : kLargestStretch;
+    ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
+                          : kLargestStretch;
+  }
+  setTiles(options, {sides[0].extent(), sides[1].extent() / ratio}, space);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double usable = space.mapSize[axis] - 2.0 * options.borderTexels;
+    sides[axis].grow(sides[axis].extent() * space.mapSize[axis] / usable);
+  }
+  if (std::max(light.x, light.y) > 0.0) {
+    ratio *= static_cast<double>(space.mapSize.y) / space.mapSize.x;
     const double wanted = sides[0].extent() * ratio;
     if (wanted > sides[1].extent()) {
       sides[1].grow(wanted);
@@ -175,9 +206,9 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   }
   const glm::dvec2 low{sides[0].low, sides[1].low}, extent{sides[0].extent(), sides[1].extent()};
   space.center = -low / extent;
-  const glm::dvec2 lightInMap = light / extent;
-  const double longest = std::max(lightInMap.x, lightInMap.y);
-  if (longest > 0.0) space.shape = lightInMap / longest;
+  const glm::dvec2 lightTexels = light / extent * glm::dvec2(space.mapSize);
+  const double longest = std::max(lightTexels.x, lightTexels.y);
+  if (longest > 0.0) space.shape = lightTexels / longest;
 
   const double depthSlices =
       kDepthReserve *
@@ -189,7 +220,7 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   mapFromLight[0][0] = unit / extent.x;
   mapFromLight[1][1] = unit / extent.y;
   mapFromLight[2][3] = unit;
-  const double side = space.mapSize * 2.0 * longest;
+  const double side = 2.0 * longest;
   glm::dmat4 clipFromLight(0.0);
   if (perspective) {
     // s = (qNear (z + offset) - 1) / ((qNear - qFar) (z + offset))
@@ -238,10 +269,10 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   space.mapFromWorld = mapFromLight * fit.lightFromWorld;
   const glm::dmat4 worldFromLight = glm::inverse(fit.lightFromWorld);
   for (const glm::dvec2& c : centers) {
-    // A view from c: x - c + c z / far instead of x.
+    // A view from c: x - c + c z qAligned instead of x.
     glm::dmat4 clip = clipFromLight;
     for (int axis = 0; axis < 2; ++axis) {
-      clip[2][axis] += clip[axis][axis] * c[axis] * qFar;
+      clip[2][axis] += clip[axis][axis] * c[axis] * qAligned;
       clip[3][axis] -= clip[axis][axis] * c[axis];
     }
     space.views.push_back(

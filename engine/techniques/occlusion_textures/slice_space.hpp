@@ -59,7 +59,8 @@ struct SliceView {
 /// thickness in world units: measured against equal steps of s, objects come out better (penumbra RMSE on
 /// casters .121 against .181 at four slices) and the ground the same.
 /// Sub-lights share slices, the window and all that follows but their views: what the light's centre sees at d
-/// in the map, at own slice units, a sub-light (i, j) steps beside it sees at d + (i stepU + j stepV) (own - 1).
+/// in the map, at own slice units, a sub-light (i, j) steps beside it sees at
+/// d + (i stepU + j stepV) (own - alignedSlice).
 struct SliceSpace {
   /// world -> (x, y, n, z): x/z and y/z times ratio(s), plus center, is the place in the map [0, 1]² where
   /// the line to the light's centre meets plane s; n / (z·divisorScale + divisorConstant) is the position's
@@ -76,16 +77,18 @@ struct SliceSpace {
   glm::dvec2 shape{1.0};        ///< its two sides, the longer one 1
   double offsetDistance = 0.0;  ///< of the centre of projection behind the light, world units
   double widestTexels = 0.0;    ///< largest side on any slice, for receivers however far
-  int mapSize = 256;             ///< texels a side of a view's map
+  int atlasSize = 256;           ///< texels a side of the atlas of all views' maps
+  glm::ivec2 mapSize{256};       ///< texels of one of them
+  glm::ivec2 tiles{1};           ///< columns and rows
   std::vector<SliceView> views;  ///< along halfU first, then along halfV
   planner::SubLightGrid grid;
-  int columns = 1;                      ///< of views' maps in their atlas, as many as rows
   glm::dvec2 stepU{0.0}, stepV{0.0};  ///< between neighbours, of the map's sides
-  int atlasSize() const { return columns * mapSize; }
-  /// A view's part of an atlas whose maps have `side` texels.
-  Rect tile(std::size_t view, int side) const {
+  double alignedSlice = 1.0;          ///< plane on which all views' maps show the same
+  /// A view's part of an atlas `scale` times as fine.
+  Rect tile(std::size_t view, int scale) const {
     const int index = static_cast<int>(view);
-    return {index % columns * side, index / columns * side, side, side};
+    const glm::ivec2 size = scale * mapSize;
+    return {index % tiles.x * size.x, index / tiles.x * size.y, size.x, size.y};
   }
   std::vector<Slice> slices;     ///< those that hold casters, nearest first
   std::vector<int> emptySlices;  ///< positions of the others, from 0
