@@ -113,13 +113,18 @@ HS_HIGHP float hs_meanPlane(vec2 covered, HS_HIGHP vec4 slice) {
 // from that sub-light is found before it.
 HS_HIGHP float hs_planes[HS_SLOTS];  // -1: none
 bool hs_occluded = false;
+vec2 hs_wholeMean(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP float s) {
+  HS_HIGHP vec2 middle = (u_slicePlace.xy + hs_centerDirection + hs_apart * (s - u_subLights.x)) * hs_mapTexels;
+  return hs_pairMean(occlusion, pair, middle, hs_side(s) * HS_MORE_SUB_LIGHTS);
+}
 void hs_searchSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice, out HS_HIGHP float found) {
   found = -1.0;
   if (hs_own > slice.x) {
-    HS_HIGHP vec2 middle = (u_slicePlace.xy + hs_centerDirection + hs_apart * (slice.x - u_subLights.x)) * hs_mapTexels;
-    vec2 covered = hs_pairMean(occlusion, pair, middle, hs_side(slice.x) * HS_MORE_SUB_LIGHTS);
+    vec2 covered = hs_wholeMean(occlusion, pair, slice.x);
     if (covered.x > 0.5 / 255.0) {
       found = min(hs_meanPlane(covered, slice), hs_own);
+      covered = hs_wholeMean(occlusion, pair, found);
+      if (covered.x > 0.5 / 255.0) found = min(hs_meanPlane(covered, slice), hs_own);
       hs_occluded = true;
     }
   }

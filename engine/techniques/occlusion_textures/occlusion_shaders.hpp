@@ -49,6 +49,7 @@ inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
         fullscreen("occlusion/occlusion_level.frag", {flag("HS_FIRST_LEVEL"), flag("HS_TILED")}),
         fullscreen("occlusion/occlusion_sum.frag", {flag("HS_FIRST_STEP"), flag("HS_TILED")}),
         fullscreen("occlusion/occlusion_mip.frag"),
+        fullscreen("occlusion/occlusion_sort.frag", {flag("HS_LAST_RECEIVERS")}),
         fullscreen("map/pyramid_copy.frag")},
        receiverFamilies("occlusion/occlusion_textures.frag", {},
                         {slotsAxis(),

@@ -118,11 +118,89 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
   plan.passes.push_back(std::move(pass));
   return result;
 }
+framegraph::ResourceDesc texturesDesc(const std::string& name, const SliceSpace& space, SliceFilter filter) {
+  framegraph::ResourceDesc desc{.name = name,
+                                .width = space.atlasSize,
+                                .height = space.atlasSize,
+                                .lifetime = framegraph::Lifetime::persistent};
+  if (filter == SliceFilter::mipmap) {
+    desc.mipmapped = true;
+    desc.filter = framegraph::Filter::linearMipNearest;
+  }
+  return desc;
+}
+
+/// Texels of a map a side that one of several views' maps is drawn with. Casters are drawn once for each view
+/// instead of once for each texture.
+constexpr int kSorted = 3;
+
+/// Nearest faces of all views in one pass, sorted into slices by one for each texture.
+SliceTextures planSortedSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
+                               SliceFilter filter) {
+  SliceTextures result{.slicesPerTexture = 2};
+  result.contentKey = combineKeys(spaceKey(scene.contentKey, space), 3);
+  const int size = kSorted * space.atlasSize;
+  const std::optional<LastReceiverDepth> last = planLastReceivers(scene, plan, space, kSorted);
+  std::vector<std::string> defines;
+  if (last) {
+    defines.push_back("HS_LAST_RECEIVERS");
+    result.lastReceivers = last->map;
+    result.contentKey = combineKeys(result.contentKey, last->contentKey);
+  }
+  const std::string name = scene.name + " occlusion casters";
+  const auto fine = plan.addImage(
+      {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
+  const auto depth = plan.addImage({.name = name + " depth test",
+                                    .width = size,
+                                    .height = size,
+                                    .format = framegraph::Format::depth24,
+                                    .storage = framegraph::Storage::renderbuffer});
+  PlannedPass pass{.name = name,
+                   .stage = framegraph::PassStage::light,
+                   .contentKey = combineKeys(spaceKey(scene.contentKey, space), 4)};
+  pass.writes = {
+      {.resource = fine, .point = framegraph::AttachmentPoint::color, .clear = {.color = {1, 1, 1, 1}}},
+      {.resource = depth, .point = framegraph::AttachmentPoint::depth}};
+  PlannedDraw draw{
+      .program = plan.addProgram(
+          {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
+  addCasters(pass, space, SliceContent::nearestFaces, kSorted, std::move(draw), scene.casters);
+  plan.passes.push_back(std::move(pass));
+  for (std::size_t first = 0; first < space.slices.size(); first += 2) {
+    const std::string slices = scene.name + " occlusion slices " + std::to_string(first + 1) + "-" +
+                               std::to_string(std::min(first + 2, space.slices.size()));
+    const ChannelBorders borders = channelBorders(space, first, 2);
+    device::UniformList uniforms;
+    uniforms.set("u_sliceLow", borders.low);
+    uniforms.set("u_sliceHigh", borders.high);
+    uniforms.set("u_sliceDepth", depthUniform(space, size));
+    const auto target = plan.addImage(texturesDesc(slices, space, filter));
+    addFilterPass(plan, {.name = slices,
+                         .fragmentFile = "occlusion/occlusion_sort.frag",
+                         .defines = defines,
+                         .source = fine,
+                         .target = target,
+                         .sourceSize = size,
+                         .targetSize = space.atlasSize,
+                         .contentKey = combineKeys(result.contentKey, first + 1),
+                         .sampler = "u_source",
+                         .uniforms = std::move(uniforms)});
+    if (last) {
+      plan.passes.back().draws.back().textures.push_back(
+          {.sampler = "u_lastReceivers", .resource = last->map});
+    }
+    result.textures.push_back(target);
+  }
+  return result;
+}
 }  // namespace
 
 SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
                          SliceContent content, SliceFilter filter) {
   const bool nearest = content == SliceContent::nearestFaces;
+  // Without highp no shader takes packed depths apart.
+  if (nearest && !space.grid.whole() && scene.capabilities.has(device::Capability::highp))
+    return planSortedSlices(scene, plan, space, filter);
   SliceTextures result{.slicesPerTexture = nearest ? 2 : 4};
   result.contentKey = combineKeys(spaceKey(scene.contentKey, space), nearest ? 2 : 1);
   const int scale = nearest ? 2 : 1;
@@ -145,15 +223,7 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
         std::min(first + static_cast<std::size_t>(result.slicesPerTexture), space.slices.size());
     const std::string name = prefix + "slices " + std::to_string(first + 1) + "-" + std::to_string(end);
     const std::uint64_t key = combineKeys(result.contentKey, first + 1);
-    framegraph::ResourceDesc desc{.name = name,
-                                  .width = space.atlasSize,
-                                  .height = space.atlasSize,
-                                  .lifetime = framegraph::Lifetime::persistent};
-    if (filter == SliceFilter::mipmap) {
-      desc.mipmapped = true;
-      desc.filter = framegraph::Filter::linearMipNearest;
-    }
-    const auto averaged = plan.addImage(desc);
+    const auto averaged = plan.addImage(texturesDesc(name, space, filter));
     auto target = averaged;
     if (nearest) {
       target = plan.addImage({.name = name + ", fine",
