@@ -21,13 +21,15 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
   const SubLightUse use = technique.subLightUse(settings);
   if (use == SubLightUse::none || inputs.fit.empty) return nullptr;
   const std::string& asked = settings.choice("sub_lights");
-  const int mapSize = technique.lightMapSize(settings, inputs.fit.mapSize);
+  planner::SubLightNeeds needs = technique.subLightNeeds(settings, inputs.fit.mapSize);
+  const int mapSize = needs.mapSize;
   int perSide = 1;
   if (asked != "auto") {
     std::from_chars(asked.data(), asked.data() + asked.size(), perSide);
   } else if (use == SubLightUse::automatic) {
-    const planner::SubLightChoice choice = planner::chooseSubLights(
-        {widestPenumbraTexels(inputs.fit, inputs.receiverFarDistance) * mapSize / inputs.fit.mapSize, mapSize});
+    needs.widestPenumbraTexels = widestPenumbraTexels(inputs.fit, inputs.receiverFarDistance) *
+                                 (static_cast<double>(mapSize) / inputs.fit.mapSize);
+    const planner::SubLightChoice choice = planner::chooseSubLights(needs);
     perSide = choice.perSide;
     reason = choice.reason;
   }

@@ -121,6 +121,9 @@ float hs_channelMean(HS_HIGHP sampler2D sums, vec2 channel, HS_HIGHP vec2 texel,
 vec2 hs_pairMean(HS_HIGHP sampler2D sums, float pair, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   return vec2(hs_boxMean(sums, texel, width, vec2(0.0, pair)), hs_boxMean(sums, texel, width, vec2(1.0, pair)));
 }
+vec4 hs_pairsMean(HS_HIGHP sampler2D sums, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  return vec4(hs_pairMean(sums, 0.0, texel, width), hs_pairMean(sums, 1.0, texel, width));
+}
 #else
 vec4 hs_squareMean(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   HS_HIGHP vec2 level = hs_levels(width);
@@ -151,4 +154,5 @@ vec2 hs_pairMean(HS_HIGHP sampler2D levels, float pair, HS_HIGHP vec2 texel, HS_
   vec4 mean = hs_levelFetch(levels, texel, width);
   return mix(mean.rg, mean.ba, pair);
 }
+#define hs_pairsMean hs_levelFetch
 #endif

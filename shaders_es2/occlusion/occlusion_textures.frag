@@ -108,35 +108,44 @@ HS_HIGHP float hs_meanPlane(vec2 covered, HS_HIGHP vec4 slice) {
   return mix(slice.x, slice.y, clamp(covered.y / max(covered.x, 1.0 / 255.0), 0.0, 1.0));
 }
 #ifdef HS_ONE_SEARCH
-// The plane where occluders lie, one for all sub-lights: what one of them sees of the part of the slice that the whole
-// light's frustum covers. Sections of farther slices lie inside those of nearer ones: whatever hides an occluder there
-// from that sub-light is found before it.
+#define HS_SAME_PLANE 0.1
+// Planes where occluders lie, one for all sub-lights: what one of them sees of what the whole light's frustum covers of
+// both slices of a texture, as wide as it is on the nearer border. Sections of farther slices lie inside those of nearer
+// ones: whatever hides an occluder there from that sub-light is found before it.
 HS_HIGHP float hs_planes[HS_SLOTS];  // -1: none
 bool hs_occluded = false;
-vec2 hs_wholeMean(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP float s) {
-  HS_HIGHP vec2 middle = (u_slicePlace.xy + hs_centerDirection + hs_apart * (s - u_subLights.x)) * hs_mapTexels;
-  return hs_pairMean(occlusion, pair, middle, hs_side(s) * HS_MORE_SUB_LIGHTS);
+HS_HIGHP float hs_foundPlane(vec2 covered, HS_HIGHP vec4 slice) {
+  if (covered.x <= 0.5 / 255.0 || hs_own <= slice.x) return -1.0;
+  hs_occluded = true;
+  return min(hs_meanPlane(covered, slice), hs_own);
 }
-void hs_searchSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice, out HS_HIGHP float found) {
-  found = -1.0;
-  if (hs_own > slice.x) {
-    vec2 covered = hs_wholeMean(occlusion, pair, slice.x);
-    if (covered.x > 0.5 / 255.0) {
-      found = min(hs_meanPlane(covered, slice), hs_own);
-      covered = hs_wholeMean(occlusion, pair, found);
-      if (covered.x > 0.5 / 255.0) found = min(hs_meanPlane(covered, slice), hs_own);
-      hs_occluded = true;
-    }
+void hs_searchPair(HS_HIGHP sampler2D occlusion, HS_HIGHP vec4 nearer, HS_HIGHP vec4 farther, out HS_HIGHP float first,
+                   out HS_HIGHP float second) {
+  first = -1.0;
+  second = -1.0;
+  if (hs_own > nearer.x) {
+    HS_HIGHP vec2 apart = hs_apart * (nearer.x - u_subLights.x);
+    HS_HIGHP vec2 middle = (u_slicePlace.xy + hs_centerDirection + apart) * hs_mapTexels;
+    vec4 covered = hs_pairsMean(occlusion, middle, hs_side(nearer.x) * HS_MORE_SUB_LIGHTS);
+    first = hs_foundPlane(covered.xy, nearer);
+    second = hs_foundPlane(covered.zw, farther);
   }
 }
 void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice, HS_HIGHP float plane) {
   if (plane >= 0.0) {
     vec2 covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
-    HS_HIGHP float before = (hs_own - hs_meanPlane(covered, slice)) * slice.z;
+    // This sub-light's own occluders may lie elsewhere, where the frustum is clearly wider or narrower.
+    HS_HIGHP float mean = hs_meanPlane(covered, slice);
+    if (abs(mean - plane) > HS_SAME_PLANE * (hs_own - plane) && covered.x > 0.5 / 255.0) {
+      plane = min(mean, hs_own);
+      covered = hs_pairMean(occlusion, pair, hs_middle(plane), hs_side(plane));
+      mean = hs_meanPlane(covered, slice);
+    }
+    HS_HIGHP float before = (hs_own - mean) * slice.z;
     hs_combine(covered.x * clamp(hs_ownInSlices ? before / slice.w - 1.0 : 128.0 * before + 1.0, 0.0, 1.0));
   }
 }
-#define HS_SEARCH(texture, pair, i) hs_searchSlice(texture, pair, u_slices[i], hs_planes[i]);
+#define HS_SEARCH(texture, i) hs_searchPair(texture, u_slices[i], u_slices[i + 1], hs_planes[i], hs_planes[i + 1]);
 #define HS_ADD(texture, pair, i) hs_addSlice(texture, pair, u_slices[i], hs_planes[i]);
 #else
 #define HS_ADD(texture, pair, i) hs_addSlice(texture, pair, u_slices[i]);
@@ -155,43 +164,44 @@ void hs_addSlice(HS_HIGHP sampler2D occlusion, float pair, HS_HIGHP vec4 slice) 
   }
 }
 #endif
-#define HS_SLICES0(each) each(u_occlusion0, 0.0, 0) each(u_occlusion0, 1.0, 1)
+// Of each texture that there is, with its first slice.
+#define HS_FOR_0(each) each(u_occlusion0, 0)
 #if HS_TEXTURES > 1
-#define HS_SLICES1(each) each(u_occlusion1, 0.0, 2) each(u_occlusion1, 1.0, 3)
+#define HS_FOR_1(each) HS_FOR_0(each) each(u_occlusion1, 2)
 #else
-#define HS_SLICES1(each)
+#define HS_FOR_1(each) HS_FOR_0(each)
 #endif
 #if HS_TEXTURES > 2
-#define HS_SLICES2(each) each(u_occlusion2, 0.0, 4) each(u_occlusion2, 1.0, 5)
+#define HS_FOR_2(each) HS_FOR_1(each) each(u_occlusion2, 4)
 #else
-#define HS_SLICES2(each)
+#define HS_FOR_2(each) HS_FOR_1(each)
 #endif
 #if HS_TEXTURES > 3
-#define HS_SLICES3(each) each(u_occlusion3, 0.0, 6) each(u_occlusion3, 1.0, 7)
+#define HS_FOR_3(each) HS_FOR_2(each) each(u_occlusion3, 6)
 #else
-#define HS_SLICES3(each)
+#define HS_FOR_3(each) HS_FOR_2(each)
 #endif
 #if HS_TEXTURES > 4
-#define HS_SLICES4(each) each(u_occlusion4, 0.0, 8) each(u_occlusion4, 1.0, 9)
+#define HS_FOR_4(each) HS_FOR_3(each) each(u_occlusion4, 8)
 #else
-#define HS_SLICES4(each)
+#define HS_FOR_4(each) HS_FOR_3(each)
 #endif
 #if HS_TEXTURES > 5
-#define HS_SLICES5(each) each(u_occlusion5, 0.0, 10) each(u_occlusion5, 1.0, 11)
+#define HS_FOR_5(each) HS_FOR_4(each) each(u_occlusion5, 10)
 #else
-#define HS_SLICES5(each)
+#define HS_FOR_5(each) HS_FOR_4(each)
 #endif
 #if HS_TEXTURES > 6
-#define HS_SLICES6(each) each(u_occlusion6, 0.0, 12) each(u_occlusion6, 1.0, 13)
+#define HS_FOR_6(each) HS_FOR_5(each) each(u_occlusion6, 12)
 #else
-#define HS_SLICES6(each)
+#define HS_FOR_6(each) HS_FOR_5(each)
 #endif
 #if HS_TEXTURES > 7
-#define HS_SLICES7(each) each(u_occlusion7, 0.0, 14) each(u_occlusion7, 1.0, 15)
+#define HS_FOR_7(each) HS_FOR_6(each) each(u_occlusion7, 14)
 #else
-#define HS_SLICES7(each)
+#define HS_FOR_7(each) HS_FOR_6(each)
 #endif
-#define HS_SLICES(each) HS_SLICES0(each) HS_SLICES1(each) HS_SLICES2(each) HS_SLICES3(each) HS_SLICES4(each) HS_SLICES5(each) HS_SLICES6(each) HS_SLICES7(each)
+#define HS_ADD_PAIR(texture, i) HS_ADD(texture, 0.0, i) HS_ADD(texture, 1.0, i + 1)
 #else
 // The slice that contains the receiver fades in between its two borders.
 void hs_addSlice(HS_HIGHP sampler2D occlusion, vec2 channel, HS_HIGHP vec4 slice) {
@@ -225,7 +235,7 @@ float hs_visibility() {
 #endif
   hs_visible = 1.0;
 #ifdef HS_SLICE_DEPTH
-  HS_SLICES(HS_ADD)
+  HS_FOR_7(HS_ADD_PAIR)
 #else
   HS_SLICES_OF(u_occlusion0, 0)
 #if HS_TEXTURES > 1
@@ -263,7 +273,7 @@ float halfshadow_visibility() {
 #endif
 #ifdef HS_ONE_SEARCH
   hs_enterSubLight(float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V / 2));
-  HS_SLICES(HS_SEARCH)
+  HS_FOR_7(HS_SEARCH)
   if (!hs_occluded) return 1.0;
 #endif
   return hs_meanVisibility();

@@ -67,6 +67,44 @@ class OcclusionAccuracy : public SharedEngineTest {
   }
 };
 
+// Measured .019 and .010 at four sub-lights against .047 and .026, mipmaps .024 and .014 against .066 and
+// .051.
+TEST_F(OcclusionAccuracy, ASplitLightErrsLessOnEachFilter) {
+  for (const char* name : {"spheres27", "figure"}) {
+    const Truth& truth = truthOf(name);
+    renderer().load(builtinScene(name));
+    const std::vector<std::uint8_t> judged = truth.penumbraOnGround();
+    for (const char* filter : {"nbuffer", "sat", "mipmap"}) {
+      const auto rmse = [&](const char* subLights) {
+        Configuration configuration = occlusion({{"filter", filter}});
+        configuration.settings.push_back({"sub_lights", subLights});
+        const std::vector<float> visibility = renderer().render(configuration).visibility();
+        const auto error = metrics::errorStatistics(visibility, truth.visibility, judged);
+        EXPECT_EQ(error.nanPixels, 0u);
+        std::printf("%s %s sub_lights=%s rmse %.4f\n", name, filter, subLights, error.rmse);
+        return error.rmse;
+      };
+      const double whole = rmse("1");
+      EXPECT_LE(rmse("2"), 0.6 * whole) << name << " " << filter;
+      EXPECT_LE(rmse("auto"), 0.6 * whole) << name << " " << filter;
+    }
+  }
+}
+
+TEST_F(OcclusionAccuracy, ASplitLightTakesNoMorePassesThanOneMap) {
+  renderer().load(builtinScene("spheres27"));
+  for (const char* filter : {"nbuffer", "sat", "mipmap"}) {
+    const auto passes = [&](const char* subLights) {
+      Configuration configuration = occlusion({{"filter", filter}});
+      configuration.settings.push_back({"sub_lights", subLights});
+      return renderer().render(configuration).counters.passes;
+    };
+    const auto whole = passes("1");
+    for (const char* several : {"2", "3", "auto"})
+      EXPECT_LE(passes(several), whole) << filter << " " << several;
+  }
+}
+
 // The project's figures; measured .032 at both (one depth layer is the wall, as for pcss). Without highp map
 // coordinates have 11 bits, steps of a third of a texel: measured .004 more, inside the same figures.
 TEST_F(OcclusionAccuracy, TunedReachesTheProjectsFigures) {

@@ -60,10 +60,10 @@ class Technique {
     (void)settings;
     return SubLightUse::none;
   }
-  /// Texels a side that all sub-lights' maps share: of the light's map, or of what the technique has instead.
-  virtual int lightMapSize(const Settings& settings, int mapSize) const {
+  /// What setting sub_lights is decided from; `mapSize` is the setting's.
+  virtual planner::SubLightNeeds subLightNeeds(const Settings& settings, int mapSize) const {
     (void)settings;
-    return mapSize;
+    return {.mapSize = mapSize};
   }
   /// For a light that takes this technique; the engine keeps it beside the light.
   virtual std::unique_ptr<LightPlanner> newPlanner() const = 0;

@@ -50,7 +50,6 @@ Choices readChoices(const Settings& settings) {
   choices.combine = choice("combine");
   if (choices.combine == "auto") choices.combine = choices.paper() ? "product" : "sum";
   choices.oneSearch = settings.choice("sub_lights") == "auto";
-  if(getenv("HS_ONE")) choices.oneSearch=atoi(getenv("HS_ONE"));
   SliceOptions& slicing = choices.slicing;
   slicing.slices = settings.integer("occlusion-textures.slices");
   slicing.mapSize = settings.integer("occlusion-textures.map_size");
@@ -160,8 +159,10 @@ class OcclusionTextures final : public Technique {
         slicing.projection == SliceProjection::perspective && slicing.center == SliceCenter::light;
     return !choices.paper() && fromLight ? SubLightUse::automatic : SubLightUse::none;
   }
-  int lightMapSize(const Settings& settings, int) const override {
-    return settings.integer("occlusion-textures.map_size");
+  planner::SubLightNeeds subLightNeeds(const Settings& settings, int) const override {
+    // Means over texels need few of them in a penumbra; nine maps of 80 texels hold too little of its
+    // casters.
+    return {.mapSize = settings.integer("occlusion-textures.map_size"), .perSide = 2, .worthSplitting = 12.0};
   }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
@@ -235,8 +236,7 @@ class OcclusionPlanner final : public LightPlanner {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
       const glm::dvec3 middle = 0.5 * (space.views.front().originWorld + space.views.back().originWorld);
-      shading.itemUniforms = [origin = middle](const DrawItem& item,
-                                                          device::UniformList& uniforms) {
+      shading.itemUniforms = [origin = middle](const DrawItem& item, device::UniformList& uniforms) {
         const device::Cull hidden = hiddenFaces(item, origin);
         uniforms.set("u_innerSide",
                      hidden == device::Cull::none ? 0.0f : (hidden == device::Cull::back ? 1.0f : -1.0f));

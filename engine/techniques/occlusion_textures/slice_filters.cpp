@@ -69,7 +69,9 @@ struct MipLayout {
   }
 };
 
-int maxOf(const glm::ivec2& size) { return std::max(size.x, size.y); }
+int maxOf(const glm::ivec2& size) {
+  return std::max(size.x, size.y);
+}
 
 int levelCovering(double texels, int mapSize) {
   int level = 1;
@@ -123,7 +125,8 @@ ResourceId planMipmaps(const Builder& b, ResourceId source, int lastLevel) {
     PlannedDraw draw = copyDraw(b.plan, source, layout.rect(level));
     if (b.tiled()) {
       draw.program = b.plan.addProgram({"screen/fullscreen.vert", "occlusion/occlusion_mip.frag", {}});
-      draw.uniforms.set("u_tiles", glm::vec4(b.space.tiles, b.space.mapSize.x >> level, b.space.mapSize.y >> level));
+      draw.uniforms.set("u_tiles",
+                        glm::vec4(b.space.tiles, b.space.mapSize.x >> level, b.space.mapSize.y >> level));
     }
     pass.draws.push_back(std::move(draw));
   }
@@ -237,10 +240,10 @@ Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, 
     height = layout.height(lastLevel);
   }
   if (const int limit = scene.capabilities.limits.textureSize; std::max(width, height) > limit) {
-    return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(space.atlasSize) +
-                                                 " needs a texture of " + std::to_string(width) + "x" +
-                                                 std::to_string(height) + ", but this device's limit is " +
-                                                 std::to_string(limit) + "; choose a smaller map"};
+    return Error{ErrorCode::invalidArgument,
+                 "occlusion-textures.map_size=" + std::to_string(space.atlasSize) + " needs a texture of " +
+                     std::to_string(width) + "x" + std::to_string(height) + ", but this device's limit is " +
+                     std::to_string(limit) + "; choose a smaller map"};
   }
   result.layout = filter == SliceFilter::summedArea
                       ? glm::vec4(space.atlasSize, 0.5 / space.atlasSize, 256.0 / countOfFullTexel(size), 0)

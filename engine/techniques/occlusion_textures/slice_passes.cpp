@@ -59,8 +59,8 @@ void addToTiles(PlannedPass& pass, const SliceSpace& space, int scale, PlannedDr
   }
 }
 
-void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int scale,
-                PlannedDraw draw, std::span<const DrawItem> items) {
+void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int scale, PlannedDraw draw,
+                std::span<const DrawItem> items) {
   const bool nearest = content == SliceContent::nearestFaces;
   if (nearest) {
     draw.state.depth = {.test = device::Compare::less, .write = true};
@@ -76,8 +76,8 @@ void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content
   });
 }
 
-/// Of slice passes: slice units of depth 1, 1 / texels of the atlas per side, and the least depth from a caster to what it
-/// shadows: two steps of the stored depth.
+/// Of slice passes: slice units of depth 1, 1 / texels of the atlas per side, and the least depth from a
+/// caster to what it shadows: two steps of the stored depth.
 glm::vec4 depthUniform(const SliceSpace& space, int size) {
   return {space.depthSlices, 1.0 / size, 2.0 / 16777215.0, 0};
 }

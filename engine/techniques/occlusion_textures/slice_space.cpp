@@ -51,7 +51,9 @@ double pyramidOffset(const planner::LightFit& fit, const std::vector<glm::dvec3>
 }
 
 /// Side of the largest tiles of which `count` stand side by side: a multiple of 8, for the levels of filters.
-int tileSide(int atlasSize, int count) { return count == 1 ? atlasSize : atlasSize / count / 8 * 8; }
+int tileSide(int atlasSize, int count) {
+  return count == 1 ? atlasSize : atlasSize / count / 8 * 8;
+}
 
 /// Maps are as wide and as high as their content asks for: a row of posts in tiles side by side would have a
 /// quarter of the texels that it has in tiles one above the other.

@@ -58,9 +58,9 @@ struct SliceView {
 /// the light's frustum on the plane s, as seen in the map, are then affine in s too. Slices have equal
 /// thickness in world units: measured against equal steps of s, objects come out better (penumbra RMSE on
 /// casters .121 against .181 at four slices) and the ground the same.
-/// Sub-lights share slices, the window and all that follows but their views: what the light's centre sees at d
-/// in the map, at own slice units, a sub-light (i, j) steps beside it sees at
-/// d + (i stepU + j stepV) (own - alignedSlice).
+/// Sub-lights share slices, the window and all that follows but their views: what the light's centre sees at
+/// d in the map, at own slice units, a sub-light (i, j) steps beside it sees at d + (i stepU + j stepV) (own
+/// - alignedSlice).
 struct SliceSpace {
   /// world -> (x, y, n, z): x/z and y/z times ratio(s), plus center, is the place in the map [0, 1]² where
   /// the line to the light's centre meets plane s; n / (z·divisorScale + divisorConstant) is the position's
@@ -74,9 +74,9 @@ struct SliceSpace {
   /// sideScale (own - s) (divisorScale + divisorConstant / z). A difference of slice units, not of distances:
   /// seen from a sun, all distances are the same number.
   double sideScale = 0.0;
-  glm::dvec2 shape{1.0};        ///< its two sides, the longer one 1
-  double offsetDistance = 0.0;  ///< of the centre of projection behind the light, world units
-  double widestTexels = 0.0;    ///< largest side on any slice, for receivers however far
+  glm::dvec2 shape{1.0};         ///< its two sides, the longer one 1
+  double offsetDistance = 0.0;   ///< of the centre of projection behind the light, world units
+  double widestTexels = 0.0;     ///< largest side on any slice, for receivers however far
   int atlasSize = 256;           ///< texels a side of the atlas of all views' maps
   glm::ivec2 mapSize{256};       ///< texels of one of them
   glm::ivec2 tiles{1};           ///< columns and rows
@@ -94,8 +94,8 @@ struct SliceSpace {
   std::vector<int> emptySlices;  ///< positions of the others, from 0
 };
 
-/// `fit` is the frame's fit (its near distance cuts casters at the light's plane); `split` has options.grid, or
-/// is null where that is whole. Errors: invalidArgument (slices outside 4-16, map size outside 64-1024, no
+/// `fit` is the frame's fit (its near distance cuts casters at the light's plane); `split` has options.grid,
+/// or is null where that is whole. Errors: invalidArgument (slices outside 4-16, map size outside 64-1024, no
 /// caster in front of the light).
 Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
                                   const SliceOptions& options, const planner::SubLights* split = nullptr);
