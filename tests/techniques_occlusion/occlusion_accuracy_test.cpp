@@ -97,7 +97,8 @@ TEST_F(OcclusionAccuracy, ASplitLightTakesNoMorePassesThanOneMap) {
     const auto passes = [&](const char* subLights) {
       Configuration configuration = occlusion({{"filter", filter}});
       configuration.settings.push_back({"sub_lights", subLights});
-      return renderer().render(configuration).counters.passes;
+      renderer().render(configuration);
+      return renderer().report().lightPasses();
     };
     const auto whole = passes("1");
     for (const char* several : {"2", "3", "auto"})
