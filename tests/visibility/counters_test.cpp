@@ -36,7 +36,7 @@ const std::vector<Cost> kCosts = {
     {{"pcss"}, 1 + 4},
     {{"pcss-mip"}, 1 + 4 + 3},
     {{"pcf-quantized"}, 1 + 4 + 3},
-    {{"occlusion-textures"}, 2 + 2 + 2 * (8 + 1)},
+    {{"occlusion-textures"}, 1 + 2 + 2 * (6 + 1)},
     {{"shadow-width"}, 1 + 2 + 6 + 7 + 1},
     {{"shadow-volume"}, 0, 1},
     {{"wedges-cells"}, 0},
