@@ -97,7 +97,8 @@ class OcclusionTextures final : public Technique {
             "slices; "
             "summed-area tables are exact",
         .knownFailures =
-            "tuned: only what the light's centre sees casts a shadow, and occluders in the receiver's own "
+            "tuned: only what the centre of the light, or of one of four parts, sees casts a shadow, and "
+            "occluders in the receiver's own "
             "slice "
             "blend with its surface; lights whose farthest caster is over 8 times as far as the nearest go "
             "to "
