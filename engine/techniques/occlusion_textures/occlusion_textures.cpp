@@ -17,6 +17,8 @@ constexpr int kMostBoxes = 8;
 /// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
 /// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
 constexpr double kOwnSurfaceBias = 0.024;
+/// The same of sub-lights, whose texels are twice as wide.
+constexpr double kOwnSurfaceBiasOfParts = 0.048;
 
 /// Farthest over nearest caster: beyond, slices are thick against what lies in them, and casters beside the
 /// light leave the others too little of the map.
@@ -253,10 +255,11 @@ class OcclusionPlanner final : public LightPlanner {
     for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
       shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
     }
+    const double ownBias = space.grid.whole() ? kOwnSurfaceBias : kOwnSurfaceBiasOfParts;
     std::vector<glm::vec4> borders;
     for (const Slice& slice : space.slices) {
       borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low),
-                           kOwnSurfaceBias * choices.slicing.slices);
+                           ownBias * choices.slicing.slices);
     }
     // Channels without slice lie behind every receiver.
     borders.resize(slots, glm::vec4(1e4f, 1e4f, 0, 1));
