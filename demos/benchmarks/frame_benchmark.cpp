@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// CPU time and allocations of the engine per frame, by technique, number of boxes, and what changes. The
-/// target and the maps are tiny and nothing is drawn: the draw calls that the engine gets end here, once it
-/// has probed its context. What remains is planning, uploading and encoding, with the driver's share of all
-/// other calls.
+/// CPU time, allocations and OpenGL ES calls of the engine per frame, by technique, number of boxes, and what
+/// changes. The target and the maps are tiny and nothing is drawn: the draw calls that the engine gets end
+/// here, once it has probed its context. What remains is planning, uploading and encoding, with the driver's
+/// share of all other calls.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "egl/headless.hpp"
+#include "gl_calls.hpp"
 #include "halfshadow/halfshadow.hpp"
 
 namespace {
@@ -43,32 +44,10 @@ constexpr int kWidth = 32, kHeight = 24;
 constexpr double kSpacing = 1.0, kHalfSize = 0.2;
 constexpr int kWarmUpFrames = 6;  // programs are linked, and whatever moves counts as moving
 
-enum class Change { nothing, oneMover, light };
-
-using DrawArrays = void (*)(unsigned mode, int first, int count);
-using DrawElements = void (*)(unsigned mode, int count, unsigned type, const void* indices);
-DrawArrays driverDrawArrays = nullptr;
-DrawElements driverDrawElements = nullptr;
-bool draws = true;
-
-void drawArrays(unsigned mode, int first, int count) {
-  if (draws) driverDrawArrays(mode, first, count);
-}
-void drawElements(unsigned mode, int count, unsigned type, const void* indices) {
-  if (draws) driverDrawElements(mode, count, type, indices);
-}
+enum class Change { nothing, camera, oneMover, light };
 
 void* loadEntryPoint(const char* name, void* user) {
-  void* address = static_cast<HeadlessContext*>(user)->getProcAddress(name);
-  if (std::string_view(name) == "glDrawArrays") {
-    driverDrawArrays = reinterpret_cast<DrawArrays>(address);
-    return reinterpret_cast<void*>(&drawArrays);
-  }
-  if (std::string_view(name) == "glDrawElements") {
-    driverDrawElements = reinterpret_cast<DrawElements>(address);
-    return reinterpret_cast<void*>(&drawElements);
-  }
-  return address;
+  return benchmarks::countedEntryPoint(name, static_cast<HeadlessContext*>(user)->getProcAddress(name));
 }
 
 constexpr std::array<std::uint32_t, 36> kBoxIndices{0, 2, 1, 1, 2, 3, 4, 5, 6, 5, 7, 6, 0, 1, 4, 1, 5, 4,
@@ -84,10 +63,32 @@ std::array<float, 24> boxCorners(double halfX, double halfY, double halfZ) {
   return corners;
 }
 
+/// A square of hills, so that it casts, with about so many triangles.
+struct Hills {
+  std::vector<float> positions;
+  std::vector<std::uint32_t> indices;
+};
+Hills hills(double halfSide, int triangles) {
+  const auto cells = static_cast<std::uint32_t>(std::sqrt(0.5 * triangles));
+  Hills mesh;
+  for (std::uint32_t i = 0; i <= cells; ++i) {
+    for (std::uint32_t k = 0; k <= cells; ++k) {
+      const double x = halfSide * (2.0 * i / cells - 1.0), z = halfSide * (2.0 * k / cells - 1.0);
+      const double y = 0.1 * halfSide * (std::sin(3.0 * x) * std::cos(2.0 * z) - 1.0);
+      for (const double coordinate : {x, y, z}) mesh.positions.push_back(static_cast<float>(coordinate));
+      if (i == cells || k == cells) continue;
+      const std::uint32_t a = i * (cells + 1) + k, b = a + cells + 1;
+      mesh.indices.insert(mesh.indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  }
+  return mesh;
+}
+
 /// An engine with a square of boxes over a ground, all in view of the camera.
 class BoxField {
  public:
-  static std::unique_ptr<BoxField> make(int boxes, std::string& error) {
+  /// `levelTriangles`: of hills in place of the flat ground; 0 = none.
+  static std::unique_ptr<BoxField> make(int boxes, int levelTriangles, std::string& error) {
     auto context = createHeadless({});
     if (!context) {
       error = context.error().message;
@@ -96,13 +97,13 @@ class BoxField {
     std::unique_ptr<BoxField> field(new BoxField);
     field->context_ = std::move(context).value();
     Outcome outcome;
-    draws = true;
+    benchmarks::glDraws = true;
     field->engine_.reset(Engine::create({.getProcAddress = loadEntryPoint,
                                          .getProcAddressUser = field->context_.get(),
                                          .hostState = HostState::leaveDirty},
                                         outcome));
-    draws = false;
-    if (outcome.ok()) outcome = field->fill(boxes);
+    benchmarks::glDraws = false;
+    if (outcome.ok()) outcome = field->fill(boxes, levelTriangles);
     if (outcome.ok()) return field;
     error = outcome.message;
     return nullptr;
@@ -118,10 +119,10 @@ class BoxField {
   std::string renderNext(Change change) {
     ++frame_;
     const double step = 0.1 * std::sin(0.3 * frame_);
+    if (change == Change::camera) desc_.camera.eye[0] = step;
     if (change == Change::oneMover) moveFirstBox(step);
     if (change == Change::light) setLight(step);
-    FrameReport report;
-    const Outcome outcome = engine_->render(desc_, report);
+    const Outcome outcome = engine_->render(desc_);
     return outcome.ok() ? "" : outcome.message;
   }
 
@@ -130,12 +131,11 @@ class BoxField {
  private:
   BoxField() = default;
 
-  Outcome fill(int boxes) {
+  Outcome fill(int boxes, int levelTriangles) {
     const int side = static_cast<int>(std::ceil(std::sqrt(boxes)));
     extent_ = 0.5 * kSpacing * side;
-    const auto ground = boxCorners(1.5 * extent_, 0.05, 1.5 * extent_);
     ObjectId id = 0;
-    if (const Outcome added = add(ground, 0.0, -0.05, 0.0, id); !added.ok()) return added;
+    if (const Outcome added = addGround(levelTriangles); !added.ok()) return added;
     const auto corners = boxCorners(kHalfSize, kHalfSize, kHalfSize);
     for (int i = 0; i < boxes; ++i) {
       const double x = kSpacing * (i % side) - extent_, z = kSpacing * (i / side) - extent_;
@@ -149,6 +149,18 @@ class BoxField {
     desc_.target.height = kHeight;
     desc_.output = Output::visibility;
     return setLight(0.0);
+  }
+
+  Outcome addGround(int levelTriangles) {
+    ObjectId id = 0;
+    if (levelTriangles == 0) return add(boxCorners(1.5 * extent_, 0.05, 1.5 * extent_), 0.0, -0.05, 0.0, id);
+    const Hills level = hills(1.5 * extent_, levelTriangles);
+    ObjectDesc object;
+    object.mesh.positions = level.positions.data();
+    object.mesh.vertexCount = static_cast<std::uint32_t>(level.positions.size() / 3);
+    object.mesh.indices = level.indices.data();
+    object.mesh.indexCount = level.indices.size();
+    return engine_->addObject(object, id);
   }
 
   Outcome add(const std::array<float, 24>& corners, double x, double y, double z, ObjectId& id) {
@@ -185,47 +197,66 @@ class BoxField {
   int frame_ = 0;
 };
 
-void frame(benchmark::State& state, const char* technique, Change change) {
+enum class Ground { flat, level };
+constexpr int kBoxesOnLevel = 20;
+
+/// The benchmark's argument is the number of boxes, or of the level's triangles.
+void frame(benchmark::State& state, const char* technique, Change change, Ground ground) {
   std::string error;
-  const auto field = BoxField::make(static_cast<int>(state.range(0)), error);
+  const auto size = static_cast<int>(state.range(0));
+  const auto field =
+      ground == Ground::flat ? BoxField::make(size, 0, error) : BoxField::make(kBoxesOnLevel, size, error);
   if (field) error = field->choose(technique);
   for (int i = 0; error.empty() && i < kWarmUpFrames; ++i) error = field->renderNext(change);
   if (!error.empty()) {
     state.SkipWithError(error.c_str());
     return;
   }
-  std::uint64_t allocated = 0;
+  std::uint64_t allocated = 0, calls = 0;
   for (auto unused : state) {
-    const std::uint64_t before = allocations;
+    const std::uint64_t before = allocations, callsBefore = benchmarks::glCalls;
     error = field->renderNext(change);
     allocated += allocations - before;
+    calls += benchmarks::glCalls - callsBefore;
     state.PauseTiming();  // what the driver still does must not run into the next frame's time
     field->finish();
     state.ResumeTiming();
     if (!error.empty()) break;
   }
   if (!error.empty()) state.SkipWithError(error.c_str());
-  state.counters["allocations"] =
-      static_cast<double>(allocated) / static_cast<double>(std::max<std::int64_t>(1, state.iterations()));
+  const auto frames = static_cast<double>(std::max<std::int64_t>(1, state.iterations()));
+  state.counters["allocations"] = static_cast<double>(allocated) / frames;
+  state.counters["gl_calls"] = static_cast<double>(calls) / frames;
 }
 
+struct Named {
+  const char* name;
+  Change change;
+};
+
 void registerAll() {
-  struct Named {
-    const char* name;
-    Change change;
-  };
   for (const char* technique :
        {"none", "hard", "pcss-mip", "shadow-width", "wedges-blended", "wedges-cells"}) {
-    for (const Named& what :
-         {Named{"unchanged", Change::nothing}, {"mover", Change::oneMover}, {"light", Change::light}}) {
+    for (const Named& what : {Named{"unchanged", Change::nothing},
+                              {"camera", Change::camera},
+                              {"mover", Change::oneMover},
+                              {"light", Change::light}}) {
       const std::string name = std::string(technique) + "/" + what.name;
-      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change)
+      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change, Ground::flat)
           ->Arg(20)
           ->Arg(200)
           ->Arg(2000)
           ->Unit(benchmark::kMicrosecond)
           ->UseRealTime();
     }
+  }
+  for (const Named& what : {Named{"mover", Change::oneMover}, {"light", Change::light}}) {
+    const std::string name = std::string("hard/level-") + what.name;
+    benchmark::RegisterBenchmark(name.c_str(), frame, "hard", what.change, Ground::level)
+        ->Arg(1000)
+        ->Arg(100000)
+        ->Unit(benchmark::kMicrosecond)
+        ->UseRealTime();
   }
 }
 

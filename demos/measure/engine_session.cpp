@@ -61,6 +61,13 @@ CameraDesc cameraDesc(const scene::Camera& camera) {
   return desc;
 }
 
+CameraDesc nudged(const CameraDesc& camera) {
+  constexpr double kStep = 1e-7;
+  CameraDesc nearer = camera;
+  for (int i = 0; i < 3; ++i) nearer.eye[i] += kStep * (camera.target[i] - camera.eye[i]);
+  return nearer;
+}
+
 LightDesc lightDesc(const scene::AreaLight& light) {
   LightDesc desc{.intensity = light.intensity, .referenceDistance = light.referenceDistance};
   store(light.centerWorld, desc.center);
@@ -180,6 +187,10 @@ Status EngineSession::set(const std::vector<Setting>& settings) {
 
 Status EngineSession::render(const RenderDesc& desc, FrameReport& report) {
   return toStatus(engine_->render(desc, report));
+}
+
+Status EngineSession::render(const RenderDesc& desc) {
+  return toStatus(engine_->render(desc));
 }
 
 Result<RgbaImage> EngineSession::read(int width, int height) {

@@ -34,6 +34,10 @@ struct RgbaImage {
 };
 
 CameraDesc cameraDesc(const scene::Camera& camera);
+/// A ten-millionth of its distance nearer: to the engine another view, in which everything that the camera
+/// sees is drawn again, with the same picture but for rounding. For measuring frames with an unchanged light,
+/// since of a wholly unchanged frame nothing is drawn.
+CameraDesc nudged(const CameraDesc& camera);
 LightDesc lightDesc(const scene::AreaLight& light);
 
 class EngineSession {
@@ -68,6 +72,7 @@ class EngineSession {
 
   /// Renders one frame into the engine's own target. `report` is valid until the next call.
   Status render(const RenderDesc& desc, FrameReport& report);
+  Status render(const RenderDesc& desc);
   /// Pixels of the last frame.
   Result<RgbaImage> read(int width, int height);
 

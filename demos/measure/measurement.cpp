@@ -51,9 +51,7 @@ class Rig {
     return session_.setLights({light_});
   }
   Status render(FrameReport& report, Timing timing = Timing::off) {
-    RenderDesc desc = desc_;
-    desc.timing = timing;
-    return session_.render(desc, report);
+    return session_.render(nextDesc(timing), report);
   }
   Result<RgbaImage> image(Output output) {
     RenderDesc desc = desc_;
@@ -72,8 +70,7 @@ class Rig {
       if (motion == Motion::light) {
         if (Status status = moveLight(); !status) return status.error();
       }
-      FrameReport report;
-      if (Status status = render(report); !status) return status.error();
+      if (Status status = session_.render(nextDesc(Timing::off)); !status) return status.error();
       session_.engine().finish();
       const std::chrono::duration<double, std::milli> elapsed = Clock::now() - start;
       if (i >= 0) milliseconds.push_back(elapsed.count());
@@ -82,11 +79,20 @@ class Rig {
   }
 
  private:
+  /// Of a frame in which the camera moved, so that receivers are drawn whatever the light does.
+  RenderDesc nextDesc(Timing timing) {
+    nudged_ = !nudged_;
+    RenderDesc desc = desc_;
+    desc.timing = timing;
+    if (nudged_) desc.camera = nudged(desc_.camera);
+    return desc;
+  }
+
   EngineSession& session_;
   scene::AreaLight light_;
   RenderDesc desc_;
   double step_ = 0.0;
-  bool moved_ = false;
+  bool moved_ = false, nudged_ = false;
 };
 
 /// Null when the engine has no such technique.

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <ctime>
 #include <set>
+#include <utility>
 
 namespace halfshadow::profile {
 namespace {
@@ -111,8 +112,12 @@ class Frames {
     }
     if (Status status = dynamicFrame(Timing::perPass, report, time); !status) return status;
     if (samples != nullptr) samples->addPasses(report);
+    // The light as it was, under a camera that moved: of a wholly unchanged frame nothing is drawn.
     session_.engine().finish();
-    if (Status status = timedFrame(Timing::off, Stopwatch(), report, time); !status) return status;
+    const CameraDesc camera = std::exchange(desc_.camera, measure::nudged(desc_.camera));
+    const Status nudged = timedFrame(Timing::off, Stopwatch(), report, time);
+    desc_.camera = camera;
+    if (!nudged) return nudged;
     if (samples != nullptr) {
       samples->unchanged.push_back(time.wallMs);
       samples->unchangedCpu.push_back(time.cpuMs);
@@ -144,9 +149,10 @@ class Frames {
 
   Status timedFrame(Timing timing, const Stopwatch& watch, FrameReport& report, FrameTime& time) {
     desc_.timing = timing;
-    if (Status status = session_.render(desc_, report); !status) return status;
+    if (Status status = session_.render(desc_); !status) return status;
     session_.engine().finish();
     time = {watch.wallMs(), watch.cpuMs()};
+    report = session_.engine().report();
     return {};
   }
 

@@ -148,9 +148,9 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
                   .height = desc->height};
   frame.output = static_cast<halfshadow::Output>(desc->output);
   copy(desc->clear_color, frame.clearColor);
-  halfshadow::FrameReport done;
-  const HalfshadowError error = finish(engine, engine->engine->render(frame, done));
+  const HalfshadowError error = finish(engine, engine->engine->render(frame));
   if (report) {
+    const halfshadow::FrameReport done = engine->engine->report();
     *report = {sizeof(HalfshadowReport), done.passCount,           done.draws,
                done.triangles,           done.framebufferSwitches, done.bytesLoaded,
                done.bytesStored,         done.memoryBytes,         done.planText};

@@ -20,6 +20,7 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
           .boundsWorld = object.boundsWorld,
           .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
+          .solidity = object.solidity,
           .mirrored = object.mirrored,
           .facetStream = object.gpu.hasFacetStream(),
           .sourceMesh = &object.mesh,
@@ -27,28 +28,39 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .revision = object.revision};
 }
 
-namespace {
-std::uint64_t keyOf(const EngineObject& object, const techniques::View& view) {
-  std::uint64_t key = combineKeys(object.revision, static_cast<std::uint64_t>(view.height));
-  for (int column = 0; column < 4; ++column) {
-    for (int row = 0; row < 4; ++row)
-      key = combineKeys(key, std::bit_cast<std::uint64_t>(view.clipFromWorld[column][row]));
+void updateItems(ItemList& list, const SceneLists& scene, std::span<const std::uint32_t> objects,
+                 ItemRole role) {
+  list.resize(objects.size());
+  for (std::size_t place = 0; place < objects.size(); ++place) {
+    const planner::PlannedObject& planned = scene.planned()[objects[place]];
+    if (list.holds(place, planned.id, planned.revision)) continue;
+    techniques::DrawItem item = drawItem(scene.object(objects[place]));
+    item.casts = item.casts && role == ItemRole::caster;
+    list.put(place, planned.id, planned.revision, std::move(item));
   }
-  return key;
 }
 
+ReceiverView receiverView(const techniques::View& screen, const scene::Camera& camera) {
+  std::uint64_t key = static_cast<std::uint64_t>(screen.height);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row)
+      key = combineKeys(key, std::bit_cast<std::uint64_t>(screen.clipFromWorld[column][row]));
+  }
+  return {screen, camera, key};
+}
+
+namespace {
 /// Makes it anew when the object or the view changed.
-Status update(gl::Context& context, const EngineObject& object, const techniques::View& view,
-              const scene::Camera& camera, std::uint64_t key) {
+Status update(gl::Context& context, const EngineObject& object, const ReceiverView& view, std::uint64_t key) {
   CutReceiver& cut = object.cutReceiver;
   if (cut.key == key) return {};
   cut = {.key = key};
-  auto mesh = scene::cutToView(object.mesh,
-                               {.clipFromObject = view.clipFromWorld * object.worldFromObject,
-                                .worldFromObject = object.worldFromObject,
-                                .eyeWorld = view.eyeWorld,
-                                .nearDistance = camera.nearDistance,
-                                .pixelAngle = 2.0 * std::tan(0.5 * camera.verticalFovRadians) / view.height});
+  auto mesh = scene::cutToView(
+      object.mesh, {.clipFromObject = view.screen.clipFromWorld * object.worldFromObject,
+                    .worldFromObject = object.worldFromObject,
+                    .eyeWorld = view.screen.eyeWorld,
+                    .nearDistance = view.camera.nearDistance,
+                    .pixelAngle = 2.0 * std::tan(0.5 * view.camera.verticalFovRadians) / view.screen.height});
   // What lies outside the view is drawn as it is, to no effect.
   if (!mesh || mesh->indices.empty()) return {};
   auto gpu = techniques::GpuMesh::create(context, *mesh);
@@ -58,15 +70,13 @@ Status update(gl::Context& context, const EngineObject& object, const techniques
   cut.gpu = std::move(gpu).value();
   return {};
 }
-}  // namespace
 
-Result<techniques::DrawItem> receiverItem(gl::Context& context, const EngineObject& object, bool castsForSome,
-                                          const techniques::View& view, const scene::Camera& camera) {
+/// That casts for no light.
+Result<techniques::DrawItem> cutItem(gl::Context& context, const EngineObject& object,
+                                     const ReceiverView& view, std::uint64_t key) {
   techniques::DrawItem item = drawItem(object);
-  item.casts = castsForSome;
-  if (castsForSome) return item;
-  const std::uint64_t key = keyOf(object, view);
-  if (Status s = update(context, object, view, camera, key); !s) return s.error();
+  item.casts = false;
+  if (Status s = update(context, object, view, key); !s) return s.error();
   const CutReceiver& cut = object.cutReceiver;
   if (!cut.needed) return item;
   item.mesh = &cut.gpu;
@@ -75,6 +85,28 @@ Result<techniques::DrawItem> receiverItem(gl::Context& context, const EngineObje
   item.boundsWorld = scene::transformed(object.worldFromObject, scene::boundsOf(cut.mesh));
   item.revision = key;
   return item;
+}
+}  // namespace
+
+Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& scene,
+                       std::span<const std::uint32_t> receivers, const std::vector<char>& castsForSome,
+                       const ReceiverView& view) {
+  list.resize(receivers.size());
+  for (std::size_t place = 0; place < receivers.size(); ++place) {
+    const std::uint32_t index = receivers[place];
+    const planner::PlannedObject& planned = scene.planned()[index];
+    const bool casts = castsForSome[index] != 0;
+    const std::uint64_t key = casts ? planned.revision : combineKeys(planned.revision, view.key);
+    if (list.holds(place, planned.id, key)) continue;
+    if (casts) {
+      list.put(place, planned.id, key, drawItem(scene.object(index)));
+      continue;
+    }
+    auto item = cutItem(context, scene.object(index), view, key);
+    if (!item) return item.error();
+    list.put(place, planned.id, key, *item);
+  }
+  return {};
 }
 
 }  // namespace halfshadow::api

@@ -82,9 +82,10 @@ Engine::~Engine() {
     gl::HostStateGuard guard(*state_->context,
                              state_->context->lost() ? gl::HostStatePolicy::leaveDirty : state_->policy());
     state_->lastFrame.reset();
-    state_->lightCaches.clear();
+    state_->lightCaches = {};
     state_->executor.reset();
     state_->shared.forget();
+    state_->receivers.clear();
     state_->objects.clear();
     state_->techniques.clear();
     state_->encoder.reset();
@@ -117,6 +118,7 @@ Outcome Engine::setTechnique(const char* id) {
       return state.fail(
           {ErrorCode::capabilityMissing, "technique " + std::string(wanted) + " needs " + support.reason});
     }
+    if (state.technique != technique.get()) ++state.changes;
     state.technique = technique.get();
     return {};
   }
@@ -163,18 +165,7 @@ Outcome Engine::setLights(const LightDesc* lights, std::size_t count) {
     }
     checked.push_back(*light);
   }
-  // A light that is set again with the same values keeps its revision: nothing is remade.
-  std::vector<std::uint64_t> revisions;
-  for (std::size_t i = 0; i < checked.size(); ++i) {
-    const bool same = i < state.lights.size() && state.lights[i].centerWorld == checked[i].centerWorld &&
-                      state.lights[i].halfU == checked[i].halfU &&
-                      state.lights[i].halfV == checked[i].halfV &&
-                      state.lights[i].emission == checked[i].emission &&
-                      (state.lights[i].intensity > 0) == (checked[i].intensity > 0);
-    revisions.push_back(same ? state.lightRevisions[i] : state.nextRevision++);
-  }
-  state.lights = std::move(checked);
-  state.lightRevisions = std::move(revisions);
+  state.setLights(std::move(checked));
   return {};
 }
 

@@ -7,64 +7,6 @@
 
 namespace halfshadow {
 
-std::uint64_t Engine::State::memoryBytes() const {
-  std::uint64_t bytes = executor->memoryBytes();
-  for (const auto& [id, object] : objects) {
-    bytes += object.gpu.memoryBytes() + object.cutReceiver.gpu.memoryBytes() +
-             (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
-  }
-  return bytes;
-}
-
-void Engine::State::fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned,
-                               const gl::Counters& counters, FrameReport& frameReport) {
-  const framegraph::Graph& graph = lastFrame->graph;
-  report.skipped = plan.skipped;
-  for (const planner::Skip& skip : planned.skips) {
-    report.skipped.push_back({skip.what, std::string(planner::skipCode(skip.reason)) + ": " +
-                                             std::string(planner::skipText(skip.reason))});
-  }
-  if (const std::uint64_t key = plan.textKey(graph); key != report.planKey) {
-    report.planKey = key;
-    report.planText = plan.text(graph);
-    report.planGraphviz = plan.graphviz(graph);
-  }
-  report.passes.clear();
-  for (std::size_t i = 0; i < report.passReports.size(); ++i) {
-    const framegraph::PassReport& pass = report.passReports[i];
-    const framegraph::PassStage stage = graph.passes()[plan.passes[i].pass].stage;
-    report.passes.push_back(
-        {.name = pass.name.c_str(),
-         .target = pass.target.c_str(),
-         .draws = pass.counters.draws,
-         .triangles = pass.counters.triangles,
-         .clear = pass.cleared,
-         .load = pass.loaded,
-         .store = pass.stored,
-         .discard = pass.discarded,
-         .bytesLoaded = pass.bytesLoaded,
-         .bytesStored = pass.bytesStored,
-         .milliseconds = pass.milliseconds,
-         .lightSpace = stage == framegraph::PassStage::light || stage == framegraph::PassStage::mask});
-  }
-  report.skips.clear();
-  for (const auto& skip : report.skipped) report.skips.push_back({skip.what.c_str(), skip.why.c_str()});
-  frameReport = {.passes = report.passes.data(),
-                 .passCount = report.passes.size(),
-                 .skips = report.skips.data(),
-                 .skipCount = report.skips.size(),
-                 .framebufferSwitches = counters.framebufferSwitches,
-                 .draws = counters.draws,
-                 .triangles = counters.triangles,
-                 .bytesLoaded = plan.bytesLoaded,
-                 .bytesStored = plan.bytesStored,
-                 .textureBytesUploaded = counters.textureUploadBytes,
-                 .bufferBytesUploaded = counters.bufferUploadBytes,
-                 .memoryBytes = memoryBytes(),
-                 .planText = report.planText.c_str(),
-                 .planGraphviz = report.planGraphviz.c_str()};
-}
-
 DriverRecord Engine::driver() const {
   const device::Capabilities& capabilities = state_->context->capabilities();
   const char* rounding = "other";

@@ -6,6 +6,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
+#include "scene/solidity.hpp"
 
 namespace halfshadow {
 namespace {
@@ -69,18 +70,6 @@ Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& des
 }
 }  // namespace
 
-void EngineObject::place(const glm::dmat4& worldFromHostNow) {
-  worldFromHost = worldFromHostNow;
-  worldFromObject = glm::translate(worldFromHost, recenteredBy);
-  boundsWorld = scene::transformed(worldFromObject, boundsObject);
-  mirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0;
-}
-
-const scene::SupportingPlanes& EngineObject::support() const {
-  if (!supportingPlanes) supportingPlanes = scene::supportingPlanesOf(mesh, recenteredBy);
-  return *supportingPlanes;
-}
-
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   State& state = *state_;
   id = 0;
@@ -103,6 +92,7 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   }
   object.mesh = std::move(mesh).value();
   object.boundsObject = scene::boundsOf(object.mesh);
+  if (desc.casts) object.solidity = static_cast<float>(scene::solidity(object.mesh));
   object.place(*transform);
   object.casts = desc.casts;
   object.receives = desc.receives;
@@ -111,6 +101,8 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   id = state.nextId++;
   object.id = id;
   state.objects.emplace(id, std::move(object));
+  state.lists.listChanged();
+  ++state.changes;
   return {};
 }
 
@@ -122,7 +114,7 @@ Outcome Engine::setTransform(ObjectId id, const double worldFromObject[16]) {
   if (!transform) return state.fail(transform.error());
   if (found->second.worldFromHost == *transform) return {};
   found->second.place(*transform);
-  found->second.revision = state.nextRevision++;
+  state.changed(found->second);
   return {};
 }
 
@@ -153,8 +145,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   object.recenteredBy = scene::recenter(object.mesh);
   object.boundsObject = scene::boundsOf(object.mesh);
   object.place(object.worldFromHost);
-  object.geometry.positionsChanged();
-  object.supportingPlanes.reset();
+  object.positionsChanged();
   if (desc.normals && !object.mesh.normals.empty()) {
     for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
       object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
@@ -169,7 +160,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   } else if (const Status updated = object.gpu.update(*state.context, object.mesh); !updated) {
     return state.fail(updated.error());
   }
-  object.revision = state.nextRevision++;
+  state.changed(object);
   return {};
 }
 
@@ -180,6 +171,8 @@ Outcome Engine::removeObject(ObjectId id) {
   gl::HostStateGuard guard(*state.context,
                            state.context->lost() ? gl::HostStatePolicy::leaveDirty : state.policy());
   state.objects.erase(found);
+  state.lists.listChanged();
+  ++state.changes;
   return {};
 }
 

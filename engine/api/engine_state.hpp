@@ -4,14 +4,17 @@
 /// Everything behind the public Engine.
 #pragma once
 
+#include <array>
 #include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/engine_object.hpp"
+#include "api/item_list.hpp"
 #include "api/light_split.hpp"
+#include "api/scene_lists.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -19,51 +22,21 @@
 #include "gl/program.hpp"
 #include "halfshadow/halfshadow.hpp"
 #include "planner/frame_planner.hpp"
-#include "scene/bounds.hpp"
-#include "techniques/execution/gpu_mesh.hpp"
 #include "techniques/execution/light_passes.hpp"
 #include "techniques/execution/receiver_pass.hpp"
 #include "techniques/registry/registry.hpp"
 
 namespace halfshadow {
 
-/// A receiver of which a camera sees so little that only that is drawn (see scene::cutToView).
-struct CutReceiver {
-  std::uint64_t key = 0;  ///< of the object and the view; 0 = not asked for yet
-  bool needed = false;
-  scene::TriangleMesh mesh;
-  techniques::GpuMesh gpu;
-};
-
-struct EngineObject {
-  ObjectId id = 0;
-  scene::TriangleMesh mesh;  ///< recentred; kept for bounds, tight light fits and silhouettes
-  scene::CasterGeometry geometry;
-  techniques::GpuMesh gpu;
-  glm::dmat4 worldFromHost{1.0};    ///< as the host placed the positions that it gave
-  glm::dvec3 recenteredBy{0.0};     ///< what was taken off those
-  glm::dmat4 worldFromObject{1.0};  ///< of the recentred positions
-  scene::Bounds boundsObject, boundsWorld;
-  bool mirrored = false;
-  /// Sets worldFromObject and what follows from it; recenteredBy and boundsObject are set before.
-  void place(const glm::dmat4& worldFromHostNow);
-  /// Of the positions there are now; found on the first call.
-  const scene::SupportingPlanes& support() const;
-  bool casts = true, receives = true;
-  glm::vec4 baseColor{1.0f};
-  gl::Texture baseColorTexture;
-  std::uint64_t revision = 0;
-  mutable std::optional<scene::SupportingPlanes> supportingPlanes;  ///< see support()
-  mutable CutReceiver cutReceiver;                                  ///< of the last frame
-};
-
 /// What is kept of a light between frames.
 struct LightCache {
   std::uint64_t key = 0;
   int mapSize = 0;
-  std::vector<glm::dvec3> casterPointsWorld;
+  api::ItemList casters, shadowlessReceivers;
+  api::KeptList<planner::CasterShape> casterShapes;
   scene::CasterGroups groups;
   scene::AreaLight light;  ///< within reach of single precision
+  planner::LightFitter fitter;
   planner::LightFit fit;
   std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
   double receiverFarDistance = 0.0;
@@ -72,33 +45,40 @@ struct LightCache {
   std::unique_ptr<techniques::LightPasses> passes;
 };
 
-/// Strings and arrays that a FrameReport points to.
-struct ReportStorage {
-  std::uint64_t planKey = 0;  ///< of planText and planGraphviz
-  std::vector<framegraph::PassReport> passReports;
-  std::vector<framegraph::Graph::Skipped> skipped;
-  std::vector<PassRecord> passes;
-  std::vector<SkipRecord> skips;
-  std::string planText, planGraphviz;
-};
-
 struct FrameLight {
-  std::vector<techniques::DrawItem> casters;
-  std::vector<techniques::DrawItem> shadowlessReceivers;
   techniques::ReceiverShading shading;
   techniques::ReceiverProgramSet programs;
 };
 
-/// Lives from declaration to execution of one frame.
+/// Lives from declaration to the next frame; the lists that it draws are the engine's.
 struct Frame {
+  RenderDesc desc;
   techniques::View view;
-  std::vector<techniques::DrawItem> receivers;
+  std::span<const techniques::DrawItem> receivers;
   std::vector<FrameLight> lights;
   framegraph::Graph graph;
   framegraph::ResourceId color;
   techniques::ShadingInputs shadingInputs;    ///< Output::shaded
   techniques::ReceiverShading screenShading;  ///< Output::shaded with several lights
   techniques::ReceiverProgramSet screenPrograms;
+
+  // What became of it.
+  framegraph::Plan plan;
+  std::vector<planner::Skip> skips;
+  std::vector<framegraph::PassReport> passReports;
+  gl::Counters counters;
+  bool unchanged = false;           ///< asked for again, it was drawn in part or not at all
+  std::uint64_t sceneRevision = 0;  ///< see State::sceneRevision
+  bool valid = false;               ///< it was drawn without an error
+};
+
+/// Strings and arrays that a FrameReport points to.
+struct ReportStorage {
+  std::vector<framegraph::Graph::Skipped> skipped;
+  std::vector<std::string> targets;
+  std::vector<PassRecord> passes;
+  std::vector<SkipRecord> skips;
+  std::string planText, planGraphviz;
 };
 
 struct Engine::State {
@@ -113,16 +93,22 @@ struct Engine::State {
   std::vector<std::string> techniqueReasons, settingTexts;
   techniques::Technique* technique = nullptr;
   std::map<ObjectId, EngineObject> objects;
+  api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;
   std::uint64_t nextRevision = 1;
   std::vector<scene::AreaLight> lights;
   std::vector<std::uint64_t> lightRevisions;
+  /// By which lights are named and known again, whatever their places: below kMaxLights, each once.
+  std::vector<std::uint32_t> lightNumbers;
   planner::FramePlanner planner;
-  std::vector<LightCache> lightCaches;
+  std::array<LightCache, kMaxLights> lightCaches;  ///< by number
+  api::ItemList receivers;
+  std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
+  std::vector<std::uint32_t> shadowless;
+  std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;
   std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
-  int outputWidth = 0, outputHeight = 0;
 
   techniques::ForwardTexts forwardTexts;
 
@@ -131,22 +117,37 @@ struct Engine::State {
   gl::HostStatePolicy policy() const;
   /// Null when there is none of that id.
   techniques::Technique* techniqueNamed(std::string_view id) const;
+  std::uint64_t sceneRevision() const { return changes + settings->revision(); }
+  LightCache& cacheOf(std::size_t light) { return lightCaches[lightNumbers[light]]; }
+  std::string nameOf(std::size_t light) const { return "light " + std::to_string(lightNumbers[light]); }
+  void setLights(std::vector<scene::AreaLight> checked);
+  /// Its mesh or its place is another.
+  void changed(EngineObject& object) {
+    object.revision = nextRevision++;
+    lists.objectChanged(object);
+    ++changes;
+  }
+
+  // One light's passes (engine_lights.cpp).
+  void fitLight(std::size_t light, const planner::LightPlan& plan);
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
-                      const planner::FramePlan& framePlan, const std::vector<const EngineObject*>& objects,
-                      const RenderDesc& desc);
+                      const planner::FramePlan& framePlan);
   /// Of the receivers in the light's fit; found again when the scene changed.
-  double receiverReach(LightCache& cache, const std::vector<const EngineObject*>& objects,
-                       std::uint64_t sceneKey) const;
+  double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
   /// Prepares, uploads and declares the light's passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index,
                                                 techniques::Technique& technique,
                                                 const techniques::LightScene& scene);
-  void declareVisibilityPass(Frame& frame, const RenderDesc& desc,
-                             std::vector<framegraph::Attachment> targets);
-  Status declareReceiverPasses(Frame& frame, const RenderDesc& desc);
-  Status renderFrame(const RenderDesc& desc, FrameReport& report);
-  void fillReport(const framegraph::Plan& plan, const planner::FramePlan& planned,
-                  const gl::Counters& counters, FrameReport& report);
+  // The frame (engine_frame.cpp).
+  void declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets);
+  Status declareReceiverPasses(Frame& frame);
+  Status checkFrame(const RenderDesc& desc, const scene::Camera& camera) const;
+  Status declareFrame(Frame& frame, const scene::Camera& camera);
+  /// The same as the last frame: what it left is as it was.
+  bool isUnchanged(const RenderDesc& desc) const;
+  /// Draws of an unchanged frame what only the host could have kept. False when that takes a whole frame.
+  Result<bool> drawUnchanged();
+  Status renderFrame(const RenderDesc& desc);
   std::uint64_t memoryBytes() const;
 };
 

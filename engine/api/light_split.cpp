@@ -41,7 +41,7 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
     return nullptr;
   }
   if (contentKey_ != inputs.contentKey || mapSize_ != mapSize || split_.grid != grid) {
-    split_ = planner::fitSubLights(inputs.light, inputs.casterPointsWorld, grid, mapSize);
+    split_ = planner::fitSubLights(inputs.light, inputs.casters, grid, mapSize, fitter_);
     contentKey_ = inputs.contentKey;
     mapSize_ = mapSize;
   }

@@ -20,7 +20,7 @@ class LightSplit {
   struct Inputs {
     const scene::AreaLight& light;
     const planner::LightFit& fit;  ///< of the light seen whole
-    std::span<const glm::dvec3> casterPointsWorld;
+    std::span<const planner::CasterShape> casters;
     double receiverFarDistance = 0.0;
     std::uint64_t contentKey = 0;  ///< of light and casters
   };
@@ -30,6 +30,7 @@ class LightSplit {
 
  private:
   planner::SubLights split_;
+  planner::LightFitter fitter_;
   std::uint64_t contentKey_ = 0;
   int mapSize_ = 0;
 };

@@ -44,6 +44,8 @@ double triangleFarDistance(const planner::LightFit& fit, const std::array<glm::d
 
 /// Larger meshes are not looked at in each frame: their boxes are.
 constexpr std::size_t kMostTriangles = 4096;
+/// Of distances to boxes, found in two ways.
+constexpr double kRounding = 1e-12;
 }  // namespace
 
 double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMesh& mesh,
@@ -63,25 +65,35 @@ double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMe
   return farthest;
 }
 
-double receiverFarDistance(const planner::LightFit& fit, std::span<const Receiver> receivers) {
+double receiverFarDistance(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects) {
   if (fit.empty) return 0.0;
   struct Reach {
-    double box;
-    const Receiver* receiver;
+    double atMost = 0.0;
+    const planner::PlannedObject* receiver = nullptr;
   };
+  const glm::dvec3 axis(fit.lightFromWorld[0].z, fit.lightFromWorld[1].z, fit.lightFromWorld[2].z);
   std::vector<Reach> reaches;
-  for (const Receiver& receiver : receivers)
-    reaches.push_back({receiverFarDistance(fit, receiver.boundsWorld), &receiver});
-  std::ranges::sort(reaches, std::ranges::greater{}, &Reach::box);
+  for (const planner::PlannedObject& object : objects) {
+    if (!object.receives || object.boundsWorld.empty()) continue;
+    const scene::Bounds& box = object.boundsWorld;
+    const double middle = glm::dot(axis, box.center()) + fit.lightFromWorld[3].z;
+    const double half = 0.5 * glm::dot(glm::abs(axis), box.high - box.low);
+    reaches.push_back({middle + half + kRounding * (std::abs(middle) + half), &object});
+  }
+  std::ranges::make_heap(reaches, {}, &Reach::atMost);
   double farthest = 0.0;
-  for (const Reach& reach : reaches) {
-    if (reach.box <= farthest) break;
-    const scene::TriangleMesh& mesh = *reach.receiver->mesh;
+  while (!reaches.empty() && reaches.front().atMost > farthest) {
+    const planner::PlannedObject& receiver = *reaches.front().receiver;
+    std::ranges::pop_heap(reaches, {}, &Reach::atMost);
+    reaches.pop_back();
+    const double box = receiverFarDistance(fit, receiver.boundsWorld);
+    if (box <= farthest) continue;
+    const scene::TriangleMesh& mesh = *receiver.mesh;
     // Rounding may not make the exact answer the larger one.
-    farthest = std::max(
-        farthest, mesh.triangleCount() > kMostTriangles
-                      ? reach.box
-                      : std::min(reach.box, receiverFarDistance(fit, mesh, reach.receiver->worldFromObject)));
+    farthest =
+        std::max(farthest, mesh.triangleCount() > kMostTriangles
+                               ? box
+                               : std::min(box, receiverFarDistance(fit, mesh, receiver.worldFromObject)));
   }
   return farthest;
 }

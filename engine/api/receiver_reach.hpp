@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "planner/frame_planner.hpp"
 #include "planner/light_fit.hpp"
 #include "scene/bounds.hpp"
 #include "scene/mesh.hpp"
@@ -20,12 +21,8 @@ double receiverFarDistance(const planner::LightFit& fit, const scene::Bounds& re
 double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMesh& mesh,
                            const glm::dmat4& worldFromObject);
 
-struct Receiver {
-  const scene::TriangleMesh* mesh = nullptr;
-  glm::dmat4 worldFromObject{1.0};
-  scene::Bounds boundsWorld;
-};
-/// Of all of them: by their triangles where a mesh has few enough, else by its box.
-double receiverFarDistance(const planner::LightFit& fit, std::span<const Receiver> receivers);
+/// Of all objects that receive: by their triangles where a mesh has few enough, else by its box. Only those
+/// are looked at whose boxes reach farther than what was found.
+double receiverFarDistance(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects);
 
 }  // namespace halfshadow::api

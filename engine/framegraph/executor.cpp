@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "base/log.hpp"
@@ -67,26 +66,6 @@ gl::PassEnd discardsOf(const PlannedPass& planned) {
     if (depthStencil || attachment.point == AttachmentPoint::stencil) end.discardStencil = true;
   }
   return end;
-}
-
-PassReport describe(const Graph& graph, const PlannedPass& planned, bool canDiscard) {
-  PassReport report{.name = graph.passes()[planned.pass].name};
-  std::set<std::uint32_t> named;
-  for (const PlannedAttachment& attachment : planned.attachments) {
-    const ResourceDesc& desc = graph.resources()[attachment.resource.index];
-    if (named.insert(attachment.resource.index).second) {
-      report.target += (report.target.empty() ? "" : "+") + desc.name;
-    }
-    report.bytesLoaded += attachment.bytesLoaded;
-    report.bytesStored += attachment.bytesStored;
-    report.cleared |= attachment.load == LoadAction::clear;
-    report.loaded |= attachment.load == LoadAction::load;
-    report.stored |= attachment.store == StoreAction::store;
-    report.discarded |= canDiscard && attachment.store == StoreAction::discard;
-  }
-  const ResourceDesc& first = graph.resources()[planned.attachments.front().resource.index];
-  report.target += " " + std::to_string(first.width) + "x" + std::to_string(first.height);
-  return report;
 }
 
 // A pass's framebuffer and the part of it that the pass covers.
@@ -249,10 +228,9 @@ Result<std::vector<PassReport>> Executor::run(const Graph& graph, const Plan& pl
   if (timing == PassTiming::perPass && !state.timer) state.timer.emplace(state.context);
   encoder.beginFrame();
 
-  const bool canDiscard = state.context.capabilities().has(device::Capability::discard);
   std::vector<PassReport> reports;
   for (std::size_t i = 0; i < plan.passes.size(); ++i) {
-    PassReport& report = reports.emplace_back(describe(graph, plan.passes[i], canDiscard));
+    PassReport& report = reports.emplace_back(PassReport{.planned = i});
     const gl::Counters before = encoder.counters();
     PassContext passContext(encoder, targets[i].viewport);
     passContext.executor_ = this;
@@ -269,6 +247,33 @@ Result<std::vector<PassReport>> Executor::run(const Graph& graph, const Plan& pl
     report.counters = encoder.counters() - before;
   }
   state.forgetSharedImages(usesOf(graph, plan));
+  return reports;
+}
+
+Result<std::vector<PassReport>> Executor::runImportedAgain(const Graph& graph, const Plan& plan,
+                                                           gl::Encoder& encoder) {
+  State& state = *state_;
+  std::vector<PassReport> reports;
+  for (std::size_t i = 0; i < plan.passes.size(); ++i) {
+    const ResourceId target = plan.passes[i].attachments.front().resource;
+    if (graph.resources()[target.index].lifetime != Lifetime::imported) continue;
+    for (const ResourceId read : graph.passes()[plan.passes[i].pass].reads) {
+      if (state.imageOf(read) == nullptr) return std::vector<PassReport>{};
+    }
+    reports.push_back({.planned = i});
+  }
+  state.hostFramebuffers.clear();
+  encoder.beginFrame();
+  for (PassReport& report : reports) {
+    const PlannedPass& planned = plan.passes[report.planned];
+    Result<Target> target = state.targetOf(graph, planned);
+    if (!target) return target.error();
+    const gl::Counters before = encoder.counters();
+    PassContext passContext(encoder, target->viewport);
+    passContext.executor_ = this;
+    if (Status s = state.runPass(graph, planned, *target, passContext, encoder); !s) return s.error();
+    report.counters = encoder.counters() - before;
+  }
   return reports;
 }
 

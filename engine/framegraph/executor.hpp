@@ -29,11 +29,10 @@ class PassContext {
   const class Executor* executor_ = nullptr;
 };
 
+/// Numbers alone; what a pass is called and draws into, its place in the plan tells.
 struct PassReport {
-  std::string name, target;
+  std::size_t planned = 0;  ///< in Plan::passes
   gl::Counters counters;
-  std::uint64_t bytesLoaded = 0, bytesStored = 0;
-  bool cleared = false, loaded = false, stored = false, discarded = false;
   double milliseconds = 0.0;  ///< 0 unless timed
 };
 
@@ -48,6 +47,12 @@ class Executor {
   std::uint64_t contentKeyOf(const ResourceDesc& desc) const;
   Result<std::vector<PassReport>> run(const Graph& graph, const Plan& plan, gl::Encoder& encoder,
                                       PassTiming timing);
+
+  /// After run() of the same plan, and no other since: those passes alone that draw into the host's
+  /// framebuffers, which need not hold what they did. Empty when an image that one of them reads has gone to
+  /// another since: then only run() draws them.
+  Result<std::vector<PassReport>> runImportedAgain(const Graph& graph, const Plan& plan,
+                                                   gl::Encoder& encoder);
 
   /// Texture of a resource after run(), until the next run() or trim(). Null when it was not made.
   const gl::Texture* texture(const Graph& graph, ResourceId resource) const;

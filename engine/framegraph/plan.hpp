@@ -38,11 +38,12 @@ struct Plan {
   std::vector<Graph::Skipped> skipped;  ///< passes not run, with the reason, after the graph's own notes
   std::uint64_t bytesLoaded = 0, bytesStored = 0;
 
-  /// Of all that text() and graphviz() tell: as long as it stays, so do they.
-  std::uint64_t textKey(const Graph& graph) const;
   std::string text(const Graph& graph) const;
   std::string graphviz(const Graph& graph) const;
 };
+
+/// What a pass draws into, "a+depth 64x32".
+std::string targetText(const Graph& graph, const PlannedPass& planned);
 
 /// Content key that a persistent resource holds now; 0 = nothing valid.
 using ContentKeyLookup = std::function<std::uint64_t(const ResourceDesc&)>;

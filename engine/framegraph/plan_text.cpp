@@ -5,7 +5,6 @@
 #include <set>
 #include <sstream>
 
-#include "base/keys.hpp"
 #include "framegraph/plan.hpp"
 
 namespace halfshadow::framegraph {
@@ -84,46 +83,17 @@ std::string quoted(const std::string& text) {
   }
   return out + "\"";
 }
-
-/// Combines what is put in, in order.
-class Key {
- public:
-  Key& add(std::uint64_t value) {
-    key_ = combineKeys(key_, value);
-    return *this;
-  }
-  Key& add(std::string_view text) { return add(text.size()).add(std::hash<std::string_view>()(text)); }
-  std::uint64_t value() const { return key_ == 0 ? 1 : key_; }
-
- private:
-  std::uint64_t key_ = 0;
-};
-
-void addResource(Key& key, const Graph& graph, ResourceId id) {
-  const ResourceDesc& desc = graph.resources()[id.index];
-  key.add(id.index).add(desc.name).add(static_cast<std::uint64_t>(desc.format));
-  key.add(static_cast<std::uint64_t>(desc.lifetime));
-  key.add(static_cast<std::uint64_t>(desc.width)).add(static_cast<std::uint64_t>(desc.height));
-}
 }  // namespace
 
-std::uint64_t Plan::textKey(const Graph& graph) const {
-  Key key;
-  for (const PlannedPass& planned : passes) {
-    const PassDesc& pass = graph.passes()[planned.pass];
-    key.add(planned.pass).add(pass.name).add(static_cast<std::uint64_t>(pass.stage));
-    key.add(planned.rebindReason).add(planned.generatesMipmaps ? 1u : 0u);
-    key.add(pass.reads.size());
-    for (const ResourceId read : pass.reads) addResource(key, graph, read);
-    key.add(planned.attachments.size());
-    for (const PlannedAttachment& attachment : planned.attachments) {
-      addResource(key, graph, attachment.resource);
-      key.add(static_cast<std::uint64_t>(attachment.load)).add(static_cast<std::uint64_t>(attachment.store));
-      key.add(attachment.bytesLoaded).add(attachment.bytesStored);
-    }
+std::string targetText(const Graph& graph, const PlannedPass& planned) {
+  std::string text;
+  std::set<std::uint32_t> named;
+  for (const PlannedAttachment& attachment : planned.attachments) {
+    const std::uint32_t index = attachment.resource.index;
+    if (named.insert(index).second) text += (text.empty() ? "" : "+") + graph.resources()[index].name;
   }
-  for (const Graph::Skipped& skip : skipped) key.add(skip.what).add(skip.why);
-  return key.add(bytesLoaded).add(bytesStored).value();
+  const ResourceDesc& first = graph.resources()[planned.attachments.front().resource.index];
+  return text + " " + std::to_string(first.width) + "x" + std::to_string(first.height);
 }
 
 std::string Plan::text(const Graph& graph) const {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "outlines/caster_loops.hpp"
 
@@ -301,10 +302,23 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
   return surface;
 }
 
+NearSurfaces::NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space,
+                           double minHeight)
+    : casters_(casters.begin(), casters.end()), space_(space), minHeight_(minHeight) {
+  std::size_t parts = 0;
+  for (const scene::PlacedCaster& caster : casters_) {
+    firstPart_.push_back(parts);
+    parts += caster.mesh->parts().size();
+  }
+  made_.resize(kSolids * parts);
+}
+
 const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, Solid solid) {
-  const auto [found, isNew] = made_.try_emplace({object, part, solid});
-  if (isNew) found->second = nearSurface(casters_[object], part, space_, minHeight_, solid);
-  return found->second;
+  std::unique_ptr<NearSurface>& made =
+      made_[kSolids * (firstPart_[object] + part) + static_cast<std::size_t>(solid)];
+  if (!made)
+    made = std::make_unique<NearSurface>(nearSurface(casters_[object], part, space_, minHeight_, solid));
+  return *made;
 }
 
 std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,

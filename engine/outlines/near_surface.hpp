@@ -10,9 +10,8 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
+#include <memory>
 #include <span>
-#include <tuple>
 #include <vector>
 
 #include "outlines/receiver_tiles.hpp"
@@ -75,8 +74,7 @@ NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, c
 class NearSurfaces {
  public:
   NearSurfaces() = default;
-  NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space, double minHeight)
-      : casters_(casters.begin(), casters.end()), space_(space), minHeight_(minHeight) {}
+  NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space, double minHeight);
   /// `object`: index of the caster. The reference lasts as long as this object.
   const NearSurface& of(std::uint32_t object, std::uint32_t part, Solid solid = Solid::within);
   const ListSpace& space() const { return space_; }
@@ -88,7 +86,9 @@ class NearSurfaces {
   ListSpace space_;
   double minHeight_ = 0.0;
   std::uint64_t tile_ = 0;
-  std::map<std::tuple<std::uint32_t, std::uint32_t, Solid>, NearSurface> made_;
+  static constexpr std::size_t kSolids = 3;
+  std::vector<std::size_t> firstPart_;              ///< of each caster, among the parts of all
+  std::vector<std::unique_ptr<NearSurface>> made_;  ///< by part and Solid; asked for in each tile
 };
 
 /// Which facets stand for the caster. Of a closed surface every ray from a receiver to the light leaves as

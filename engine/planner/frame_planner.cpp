@@ -4,66 +4,45 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
 
 #include "base/keys.hpp"
-#include "planner/light_space.hpp"
-#include "planner/separation.hpp"
+#include "planner/relevance.hpp"
 
 namespace halfshadow::planner {
 namespace {
 
 constexpr int kChangesUntilDynamic = 2;
 constexpr std::uint64_t kKeySeed = 0x68616c66736861ull;
+/// Of moved receivers, from which on the order is sorted anew.
+constexpr std::size_t kFewMoved = 16;
 
 bool shines(const scene::AreaLight& light) {
   return light.intensity > 0.0 && std::max({light.color.r, light.color.g, light.color.b}) > 0.0f;
 }
 
-// Receivers with large boxes first: they are the likeliest to be shadowed, so that searches end early.
-std::vector<std::uint32_t> largestFirst(const FrameInput& input, std::vector<std::uint32_t> receivers) {
-  std::stable_sort(receivers.begin(), receivers.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return input.objects[a].boundsWorld.radius() > input.objects[b].boundsWorld.radius();
-  });
-  return receivers;
+/// Distance at which it may begin. Drawn front to back, what lies behind is rejected before its visibility is
+/// computed.
+double nearestTo(const glm::dvec3& eye, const scene::Bounds& bounds) {
+  return glm::length(glm::max(glm::max(bounds.low - eye, eye - bounds.high), glm::dvec3(0.0)));
 }
 
-/// By the distance at which each may begin, so that what lies behind is rejected before its visibility is
-/// computed. Coincident surfaces keep their order: which of them wins stays the same.
-void sortFrontToBack(const FrameInput& input, std::vector<std::uint32_t>& receivers) {
-  std::vector<double> nearest(input.objects.size());
-  for (const std::uint32_t i : receivers) {
-    const scene::Bounds& bounds = input.objects[i].boundsWorld;
-    const glm::dvec3& eye = input.camera->eyeWorld;
-    nearest[i] = glm::length(glm::max(glm::max(bounds.low - eye, eye - bounds.high), glm::dvec3(0.0)));
-  }
-  std::ranges::stable_sort(receivers, {}, [&](std::uint32_t i) { return nearest[i]; });
+std::uint64_t keyOf(const PlannedObject& object) {
+  const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
+  return combineKeys(combineKeys(combineKeys(kKeySeed, object.id), object.revision), roles);
 }
 
-/// What keeps a caster from all of `receivers`; nothing when it can shadow one of them.
-std::optional<SkipReason> apartFrom(const FrameInput& input, const scene::AreaLight& light,
-                                    Separation& separation, std::uint32_t caster,
-                                    const std::vector<std::uint32_t>& receivers) {
-  SkipReason reason = SkipReason::noReceiverBehind;
-  for (const std::uint32_t receiver : receivers) {
-    // The cheaper proof first: a ground is asked about everything that stands on it.
-    if (separation.cannotShadow(caster, receiver)) {
-      reason = SkipReason::nothingBeyond;
-    } else if (shadowRegionMeets(light, input.objects[caster].boundsWorld,
-                                 input.objects[receiver].boundsWorld)) {
-      return std::nullopt;
-    }
-  }
-  return reason;
-}
-
-std::uint64_t keyOf(const FrameInput& input, std::uint64_t lightRevision,
-                    const std::vector<std::uint32_t>& casters) {
-  std::uint64_t key = combineKeys(kKeySeed, lightRevision);
-  for (const std::uint32_t caster : casters) {
-    key = combineKeys(combineKeys(key, input.objects[caster].id), input.objects[caster].revision);
-  }
+std::uint64_t neverZero(std::uint64_t key) {
   return key == 0 ? 1 : key;
+}
+
+}  // namespace
+
+std::uint64_t lightRevisionOf(const FrameInput& input, std::size_t light) {
+  return light < input.lightRevisions.size() ? input.lightRevisions[light] : 0;
+}
+
+std::uint32_t lightNumberOf(const FrameInput& input, std::size_t light) {
+  return light < input.lightNumbers.size() ? input.lightNumbers[light] : static_cast<std::uint32_t>(light);
 }
 
 std::uint64_t cameraKeyOf(const FrameInput& input) {
@@ -72,194 +51,234 @@ std::uint64_t cameraKeyOf(const FrameInput& input) {
   const scene::Camera& camera = *input.camera;
   for (const glm::dvec3& vector :
        {camera.eyeWorld, camera.targetWorld, camera.up,
-        glm::dvec3(camera.verticalFovRadians, camera.nearDistance, input.aspectWidthOverHeight)}) {
+        glm::dvec3(camera.verticalFovRadians, camera.nearDistance, camera.farDistance),
+        glm::dvec3(input.aspectWidthOverHeight)}) {
     for (int i = 0; i < 3; ++i) key = combineKeys(key, std::bit_cast<std::uint64_t>(vector[i]));
   }
   return key;
 }
 
-std::string casterName(const FrameInput& input, std::uint32_t caster, std::size_t light) {
-  std::string name = "caster " + std::to_string(input.objects[caster].id);
-  if (input.lights.size() > 1) name += " for light " + std::to_string(light);
-  return name;
+/// What is kept of a light between frames.
+struct FramePlanner::LightHistory {
+  std::uint32_t number = 0;
+  std::uint64_t lightRevision = 0, castersRevision = 0;
+  int changedFramesRunning = 0;
+  std::uint64_t key = 0;
+  bool reduced = false;                 ///< the view lacks casters that no visible receiver needed
+  std::vector<std::uint32_t> drawnIds;  ///< sorted
+  std::vector<char> drawn;              ///< the same by object
+  Relevance toAll, toVisible;           ///< receivers
+  std::vector<char> relevant;           ///< by object, to any receiver
+  std::uint64_t relevanceOf = 0;        ///< scene, light and camera that `toAll` was last asked for
+};
+
+FramePlanner::FramePlanner() = default;
+FramePlanner::~FramePlanner() = default;
+
+std::uint64_t FramePlanner::pairsAsked() const {
+  std::uint64_t pairs = 0;
+  for (const auto& history : histories_)
+    pairs += history->toAll.pairsAsked() + history->toVisible.pairsAsked();
+  return pairs;
 }
 
-}  // namespace
-
-std::string_view skipCode(SkipReason reason) {
-  switch (reason) {
-#define HALFSHADOW_SKIP_CODE(name, code, text) \
-  case SkipReason::name:                       \
-    return code;
-    HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_CODE)
-#undef HALFSHADOW_SKIP_CODE
-  }
-  return "unknown";
+FramePlanner::LightHistory& FramePlanner::historyOf(std::uint32_t number) {
+  const auto found =
+      std::ranges::find_if(histories_, [&](const auto& history) { return history->number == number; });
+  if (found != histories_.end()) return **found;
+  histories_.push_back(std::make_unique<LightHistory>());
+  histories_.back()->number = number;
+  return *histories_.back();
 }
 
-std::string_view skipText(SkipReason reason) {
-  switch (reason) {
-#define HALFSHADOW_SKIP_TEXT(name, code, text) \
-  case SkipReason::name:                       \
-    return text;
-    HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_TEXT)
-#undef HALFSHADOW_SKIP_TEXT
-  }
-  return "unknown";
-}
-
-// Based on: Steele, Lea and Flood 2014, "Fast splittable pseudorandom number generators", section 4 (the
-// finaliser's constants); the seed is mixed first, so that the order of values matters.
-FramePlanner::Revisions FramePlanner::revisionsOf(const FrameInput& input) {
-  Revisions revisions{kKeySeed, kKeySeed};
-  for (const PlannedObject& object : input.objects) {
-    const std::uint64_t roles = (object.casts ? 2u : 0u) + (object.receives ? 1u : 0u);
-    revisions.scene =
-        combineKeys(combineKeys(combineKeys(revisions.scene, object.id), object.revision), roles);
-    if (object.casts)
-      revisions.casters = combineKeys(combineKeys(revisions.casters, object.id), object.revision);
-  }
-  return revisions;
-}
-
-void FramePlanner::findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                                LightHistory& history) {
-  history.relevant.clear();
-  history.irrelevant.clear();
-  const LightSpace space = lightSpace(input.lights[light]);
-  Separation separation(input, input.lights[light]);
+void FramePlanner::listObjects(const FrameInput& input) {
+  known_.clear();
+  casters_.clear(), receivers_.clear(), visible_.clear(), largestFirst_.clear();
   for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
     const PlannedObject& object = input.objects[i];
-    if (!object.casts || object.boundsWorld.empty()) continue;
-    if (space.boundsLight(object.boundsWorld).high.z <= 0.0) {
-      history.irrelevant.push_back({casterName(input, i, light), SkipReason::behindLight});
-    } else if (const auto apart = apartFrom(input, input.lights[light], separation, i, receivers.all)) {
-      history.irrelevant.push_back({casterName(input, i, light), *apart});
-    } else {
-      history.relevant.push_back(i);
-    }
+    const bool exists = !object.boundsWorld.empty();
+    known_.push_back({.id = object.id});
+    casters_.push_back(exists && object.casts ? 1 : 0);
+    receivers_.push_back(exists && object.receives ? 1 : 0);
+    if (receivers_.back()) largestFirst_.push_back(i);
   }
-  history.byCamera.clear();
-  for (const auto& [caster, receiver, cannotShadow] : separation.byCamera()) {
-    history.byCamera.push_back({caster, receiver, cannotShadow});
-  }
-  history.cameraKey = cameraKeyOf(input);
+  visible_.assign(known_.size(), 0);
+  std::ranges::stable_sort(largestFirst_, std::ranges::greater{},
+                           [&](std::uint32_t i) { return input.objects[i].boundsWorld.radius(); });
 }
 
-/// The camera moved, and what was decided by where it was is decided otherwise now.
-bool FramePlanner::relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history) {
-  if (history.byCamera.empty()) return false;
+/// Whether the camera sees the receiver, and from where on; `frontToBack_` stays sorted.
+void FramePlanner::place(const FrameInput& input, const glm::dmat4& clipFromWorld, std::uint32_t object) {
+  const auto before = std::ranges::find(frontToBack_, object, &Placed::object);
+  if (before != frontToBack_.end()) frontToBack_.erase(before);
+  const scene::Bounds& bounds = input.objects[object].boundsWorld;
+  visible_[object] = receivers_[object] && (!input.camera || visibleIn(clipFromWorld, bounds)) ? 1 : 0;
+  if (!visible_[object]) return;
+  const Placed placed{input.camera ? nearestTo(input.camera->eyeWorld, bounds) : 0.0, object};
+  frontToBack_.insert(std::ranges::lower_bound(frontToBack_, placed), placed);
+}
+
+/// Takes over what changed since the frame before.
+void FramePlanner::observe(const FrameInput& input) {
+  objectsListed_ = !std::ranges::equal(input.objects, known_, {}, &PlannedObject::id, &Known::id);
+  if (objectsListed_) listObjects(input);
+  std::vector<std::uint32_t> moved;
+  std::uint64_t casters = kKeySeed, scene = kKeySeed;
+  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+    const PlannedObject& object = input.objects[i];
+    Known& known = known_[i];
+    if (known.key == 0 || known.revision != object.revision) {
+      known.revision = object.revision;
+      known.key = keyOf(object);
+      moved.push_back(i);
+    }
+    // Sums, so that one object's share changes without the others' being looked at.
+    scene += known.key;
+    if (object.casts) casters += known.key;
+  }
+  sceneRevision_ = scene, castersRevision_ = casters;
+
   const std::uint64_t cameraNow = cameraKeyOf(input);
-  if (cameraNow == history.cameraKey) return false;
-  history.cameraKey = cameraNow;
-  Separation separation(input, input.lights[light]);
-  return std::ranges::any_of(history.byCamera, [&](const LightHistory::ByCamera& known) {
-    return separation.cannotShadow(known.caster, known.receiver) != known.cannotShadow;
-  });
-}
-
-LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                                  const Revisions& revisions, LightHistory& history,
-                                  std::vector<Skip>& skips) {
-  const std::uint64_t lightRevision = light < input.lightRevisions.size() ? input.lightRevisions[light] : 0;
-  const std::string lightName = "light " + std::to_string(light);
-  LightPlan plan;
-  if (!shines(input.lights[light])) {
-    plan.active = false;
-    plan.contentKey = keyOf(input, lightRevision, {});
-    skips.push_back({lightName, SkipReason::lightOff});
-    return plan;
-  }
-  const bool first = history.key == 0;
-  const bool changed =
-      first || history.lightRevision != lightRevision || history.castersRevision != revisions.casters;
-  history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
-  const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
-  const std::uint64_t sceneNow = combineKeys(revisions.scene, lightRevision);
-  bool relevantChanged = false;
-  if (first || sceneNow != history.sceneRevision || relevanceIsStale(input, light, history)) {
-    const std::vector<std::uint32_t> before = history.relevant;
-    findRelevant(input, light, receivers, history);
-    relevantChanged = before != history.relevant;
-  }
-  skips.insert(skips.end(), history.irrelevant.begin(), history.irrelevant.end());
-
-  // A complete view needs every relevant caster; one without those out of view, what this camera needs.
-  std::vector<std::uint32_t> needed = history.relevant, outOfView;
-  const bool allVisible = receivers.visible.size() == receivers.all.size();  // then none can be dropped
-  if ((dynamic || history.reduced) && !allVisible) {
-    Separation separation(input, input.lights[light]);
-    const auto split = std::stable_partition(needed.begin(), needed.end(), [&](std::uint32_t caster) {
-      return !apartFrom(input, input.lights[light], separation, caster, receivers.visible);
-    });
-    outOfView.assign(split, needed.end());
-    needed.erase(split, needed.end());
-  }
-  const auto drawnBefore = [&](std::uint32_t caster) {
-    return std::ranges::binary_search(history.drawnIds, input.objects[caster].id);
-  };
-  if (dynamic) {
-    plan.casters = needed;
-    history.reduced = !outOfView.empty();
-  } else if (!changed && !relevantChanged && std::all_of(needed.begin(), needed.end(), drawnBefore)) {
-    // The cached view holds all that is needed, perhaps more: it stays.
-    for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
-      if (input.objects[i].casts && drawnBefore(i)) plan.casters.push_back(i);
-    }
-    std::erase_if(outOfView, drawnBefore);
-  } else {
-    plan.casters = history.relevant;
-    history.reduced = false;
-    outOfView.clear();
-  }
-  for (const std::uint32_t caster : outOfView) {
-    skips.push_back({casterName(input, caster, light), SkipReason::shadowOutOfView});
-  }
-
-  plan.contentKey = keyOf(input, lightRevision, plan.casters);
-  plan.active = !plan.casters.empty();
-  if (!plan.active) {
-    skips.push_back({lightName, SkipReason::noCasters});
-  } else if (plan.contentKey == history.key) {
-    skips.push_back({lightName, SkipReason::unchanged});
-  }
-  history.lightRevision = lightRevision;
-  history.castersRevision = revisions.casters;
-  history.sceneRevision = sceneNow;
-  history.key = plan.contentKey;
-  history.drawnIds.clear();
-  for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(input.objects[caster].id);
-  std::ranges::sort(history.drawnIds);
-  return plan;
-}
-
-FramePlan FramePlanner::plan(const FrameInput& input) {
-  FramePlan plan;
-  Receivers receivers;
   glm::dmat4 clipFromWorld(1.0);
   if (input.camera) {
     clipFromWorld =
         scene::clipFromView(*input.camera, input.aspectWidthOverHeight) * scene::viewFromWorld(*input.camera);
   }
-  for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
-    const PlannedObject& object = input.objects[i];
-    if (!object.receives || object.boundsWorld.empty()) continue;
-    receivers.all.push_back(i);
-    if (!input.camera || visibleIn(clipFromWorld, object.boundsWorld)) {
-      plan.receivers.push_back(i);
-    } else {
-      plan.skips.push_back({"receiver " + std::to_string(object.id), SkipReason::receiverOutOfView});
+  if (objectsListed_ || cameraNow != cameraKey_ || moved.size() > kFewMoved) {
+    frontToBack_.clear();
+    for (std::uint32_t i = 0; i < known_.size(); ++i) {
+      const scene::Bounds& bounds = input.objects[i].boundsWorld;
+      visible_[i] = receivers_[i] && (!input.camera || visibleIn(clipFromWorld, bounds)) ? 1 : 0;
+      if (visible_[i])
+        frontToBack_.push_back({input.camera ? nearestTo(input.camera->eyeWorld, bounds) : 0.0, i});
     }
+    // Coincident surfaces keep their order: which of them wins stays the same.
+    std::ranges::sort(frontToBack_);
+  } else {
+    for (const std::uint32_t i : moved) place(input, clipFromWorld, i);
   }
-  receivers.all = largestFirst(input, std::move(receivers.all));
-  receivers.visible = largestFirst(input, plan.receivers);
-  if (input.camera) sortFrontToBack(input, plan.receivers);
-  history_.resize(input.lights.size());
-  const Revisions revisions = revisionsOf(input);
-  plan.sceneRevision = revisions.scene;
+  cameraKey_ = cameraNow;
+}
+
+LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, LightHistory& history,
+                                  std::vector<Skip>& skips) {
+  const std::uint64_t lightRevision = lightRevisionOf(input, light);
+  const bool several = input.lights.size() > 1;
+  const auto skipLight = [&](SkipReason reason) {
+    skips.push_back({.subject = Skip::Subject::light, .reason = reason, .light = history.number});
+  };
+  const auto skipCaster = [&](std::uint32_t caster, SkipReason reason) {
+    skips.push_back({.subject = Skip::Subject::caster,
+                     .reason = reason,
+                     .amongLights = several,
+                     .id = input.objects[caster].id,
+                     .light = history.number});
+  };
+  LightPlan plan;
+  const std::uint64_t lightKey = combineKeys(kKeySeed, lightRevision);
+  if (!shines(input.lights[light])) {
+    plan.active = false;
+    plan.contentKey = neverZero(lightKey);
+    skipLight(SkipReason::lightOff);
+    return plan;
+  }
+  const bool first = history.key == 0;
+  const bool changed =
+      first || history.lightRevision != lightRevision || history.castersRevision != castersRevision_;
+  history.changedFramesRunning = changed && !first ? history.changedFramesRunning + 1 : 0;
+  const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
+  const std::uint64_t now = neverZero(combineKeys(combineKeys(sceneRevision_, lightRevision), cameraKey_));
+  bool relevantChanged = false;
+  if (history.relevanceOf != now || objectsListed_) {
+    history.relevanceOf = now;
+    history.toAll.update(input, light, casters_, receivers_, largestFirst_);
+    relevantChanged = history.toAll.changed();
+    history.relevant.resize(known_.size());
+    for (std::uint32_t i = 0; i < known_.size(); ++i)
+      history.relevant[i] = history.toAll.canShadow(i) ? 1 : 0;
+  }
+  for (const Relevance::Apart& apart : history.toAll.apart()) skipCaster(apart.caster, apart.reason);
+  if (objectsListed_ || history.drawn.size() != known_.size()) {
+    history.drawn.assign(known_.size(), 0);
+    for (std::uint32_t i = 0; i < known_.size(); ++i)
+      history.drawn[i] = std::ranges::binary_search(history.drawnIds, known_[i].id) ? 1 : 0;
+  }
+
+  // A complete view needs every relevant caster; one without those out of view, what this camera needs.
+  const std::vector<char>* needed = &history.relevant;
+  std::vector<char> neededInView;
+  const bool allVisible = frontToBack_.size() == largestFirst_.size();  // then none can be dropped
+  if ((dynamic || history.reduced) && !allVisible) {
+    history.toVisible.update(input, light, history.relevant, visible_, largestFirst_);
+    neededInView.resize(known_.size());
+    for (std::uint32_t i = 0; i < known_.size(); ++i)
+      neededInView[i] = history.toVisible.canShadow(i) ? 1 : 0;
+    needed = &neededInView;
+  }
+  const auto isNeeded = [&](std::uint32_t i) { return (*needed)[i] != 0; };
+  bool allDrawn = true;
+  for (std::uint32_t i = 0; i < known_.size(); ++i) allDrawn = allDrawn && (!isNeeded(i) || history.drawn[i]);
+  // The cached view may hold more than is needed: it stays.
+  const bool cached = !dynamic && !changed && !relevantChanged && allDrawn;
+  const bool complete = !dynamic && !cached;
+  if (complete) needed = &history.relevant;
+  bool anyOutOfView = false;
+  std::uint64_t key = lightKey;
+  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+    const bool drawn = cached ? casters_[i] && history.drawn[i] : isNeeded(i);
+    if (drawn) {
+      plan.casters.push_back(i);
+      key += known_[i].key;
+    } else if (history.relevant[i]) {
+      skipCaster(i, SkipReason::shadowOutOfView);
+      anyOutOfView = true;
+    }
+    if (!cached) history.drawn[i] = drawn ? 1 : 0;
+  }
+  if (!cached) history.reduced = anyOutOfView;
+  plan.contentKey = neverZero(key);
+  plan.active = !plan.casters.empty();
+  if (!plan.active) {
+    skipLight(SkipReason::noCasters);
+  } else if (plan.contentKey == history.key) {
+    skipLight(SkipReason::unchanged);
+  }
+  history.lightRevision = lightRevision;
+  history.castersRevision = castersRevision_;
+  history.key = plan.contentKey;
+  history.drawnIds.clear();
+  for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(known_[caster].id);
+  if (!std::ranges::is_sorted(history.drawnIds)) std::ranges::sort(history.drawnIds);
+  return plan;
+}
+
+void FramePlanner::listReceivers(const FrameInput& input, FramePlan& plan) const {
+  plan.receivers.reserve(frontToBack_.size());
+  for (const Placed& placed : frontToBack_) plan.receivers.push_back(placed.object);
+  if (frontToBack_.size() == largestFirst_.size()) return;
+  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+    if (!receivers_[i] || visible_[i]) continue;
+    plan.skips.push_back({.subject = Skip::Subject::receiver,
+                          .reason = SkipReason::receiverOutOfView,
+                          .id = input.objects[i].id});
+  }
+}
+
+FramePlan FramePlanner::plan(const FrameInput& input) {
+  FramePlan plan;
+  observe(input);
+  plan.sceneRevision = sceneRevision_;
+  listReceivers(input, plan);
   for (std::size_t light = 0; light < input.lights.size(); ++light) {
-    plan.lights.push_back(planLight(input, light, receivers, revisions, history_[light], plan.skips));
+    plan.lights.push_back(planLight(input, light, historyOf(lightNumberOf(input, light)), plan.skips));
   }
+  // Of lights that are gone.
+  std::erase_if(histories_, [&](const auto& history) {
+    for (std::size_t light = 0; light < input.lights.size(); ++light) {
+      if (lightNumberOf(input, light) == history->number) return false;
+    }
+    return true;
+  });
   return plan;
 }
 

@@ -7,38 +7,19 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <memory>
 #include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
-#include "planner/light_fit.hpp"
+#include "planner/light_space.hpp"
+#include "planner/skips.hpp"
 #include "scene/bounds.hpp"
 #include "scene/camera.hpp"
+#include "scene/convex_hull.hpp"
 #include "scene/light.hpp"
 #include "scene/supporting_planes.hpp"
 
 namespace halfshadow::planner {
-
-// X(enumerator, "code", "sentence")
-#define HALFSHADOW_SKIP_LIST(X)                                                                        \
-  X(unchanged, "unchanged", "its inputs have the same revisions as when it was last made")             \
-  X(behindLight, "behind-light", "the caster lies wholly behind the light's plane")                    \
-  X(noReceiverBehind, "no-receiver-behind", "no receiver lies in the caster's shadow region")          \
-  X(nothingBeyond, "nothing-beyond", "no receiver lies beyond the caster, seen from the light")        \
-  X(shadowOutOfView, "shadow-out-of-view", "the caster's shadow region misses every visible receiver") \
-  X(receiverOutOfView, "receiver-out-of-view", "the receiver lies outside the camera's view")          \
-  X(noCasters, "no-casters", "no caster can shadow a receiver")                                        \
-  X(lightOff, "light-off", "the light has no intensity")                                               \
-  X(notRead, "not-read", "no pass reads its result")
-
-enum class SkipReason {
-#define HALFSHADOW_SKIP_ENUM(name, code, text) name,
-  HALFSHADOW_SKIP_LIST(HALFSHADOW_SKIP_ENUM)
-#undef HALFSHADOW_SKIP_ENUM
-};
-std::string_view skipCode(SkipReason reason);
-std::string_view skipText(SkipReason reason);
 
 /// One object as the planner sees it. `revision` changes whenever its mesh or transform does.
 struct PlannedObject {
@@ -49,6 +30,7 @@ struct PlannedObject {
   /// Its shape, all three or none: with them more casters are known to shadow nothing (see separation.hpp).
   const scene::TriangleMesh* mesh = nullptr;
   const scene::SupportingPlanes* support = nullptr;
+  const scene::EnclosingPoints* enclosing = nullptr;  ///< of the mesh, or null: then all of it is looked at
   glm::dmat4 worldFromObject{1.0};
 };
 
@@ -58,11 +40,8 @@ struct FrameInput {
   double aspectWidthOverHeight = 1.0;
   std::span<const scene::AreaLight> lights;
   std::span<const std::uint64_t> lightRevisions;
-};
-
-struct Skip {
-  std::string what;  ///< "caster 3", "receiver 7", "light 0"
-  SkipReason reason = SkipReason::unchanged;
+  /// By which lights are known from frame to frame, and named; none: their places.
+  std::span<const std::uint32_t> lightNumbers;
 };
 
 struct LightPlan {
@@ -86,49 +65,61 @@ struct FramePlan {
 /// a caster or the light changes in two frames running (the view is remade anyway), casters whose shadow
 /// region misses all visible receivers are dropped too; when the movement ends and the camera needs a dropped
 /// caster, the view is remade once.
+///
+/// What does not change is not looked at again: where one object moves, the work left for all others is a
+/// comparison of revisions.
 class FramePlanner {
  public:
+  FramePlanner();
+  ~FramePlanner();
   FramePlan plan(const FrameInput& input);
+  /// Pairs of caster and receiver that were looked at, since it was made.
+  std::uint64_t pairsAsked() const;
 
  private:
-  struct LightHistory {
-    std::uint64_t lightRevision = 0;
-    std::uint64_t castersRevision = 0;
-    int changedFramesRunning = 0;
-    std::vector<std::uint32_t> drawnIds;  ///< sorted
-    std::uint64_t key = 0;
-    bool reduced = false;  ///< the view lacks casters that no visible receiver needed
-    // Searched again only when the scene or the light changes; or the camera, where relevance depends on it.
-    std::uint64_t sceneRevision = 0;
-    struct ByCamera {
-      std::uint32_t caster = 0, receiver = 0;  ///< indices
-      bool cannotShadow = false;
-    };
-    std::vector<ByCamera> byCamera;
-    std::uint64_t cameraKey = 0;
-    std::vector<std::uint32_t> relevant;
-    std::vector<Skip> irrelevant;
+  struct LightHistory;
+  /// An object as it was when the frame before was planned.
+  struct Known {
+    std::uint32_t id = 0;
+    bool visible = false;  ///< it receives, in view
+    std::uint64_t revision = 0, key = 0;
   };
-  struct Receivers {
-    std::vector<std::uint32_t> all, visible;  // largest first
+  /// A visible receiver and where it may begin, seen from the eye.
+  struct Placed {
+    double nearest = 0.0;
+    std::uint32_t object = 0;
+    auto operator<=>(const Placed&) const = default;
   };
-  /// Of all objects, once a frame.
-  struct Revisions {
-    std::uint64_t casters = 0, scene = 0;
-  };
-  static Revisions revisionsOf(const FrameInput& input);
-  static void findRelevant(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                           LightHistory& history);
-  static bool relevanceIsStale(const FrameInput& input, std::size_t light, LightHistory& history);
-  static LightPlan planLight(const FrameInput& input, std::size_t light, const Receivers& receivers,
-                             const Revisions& revisions, LightHistory& history, std::vector<Skip>& skips);
-  std::vector<LightHistory> history_;
+  void observe(const FrameInput& input);
+  void listObjects(const FrameInput& input);
+  void place(const FrameInput& input, const glm::dmat4& clipFromWorld, std::uint32_t object);
+  void listReceivers(const FrameInput& input, FramePlan& plan) const;
+  LightHistory& historyOf(std::uint32_t number);
+  LightPlan planLight(const FrameInput& input, std::size_t light, LightHistory& history,
+                      std::vector<Skip>& skips);
+
+  std::uint64_t cameraKey_ = 0;
+  std::vector<Known> known_;
+  std::vector<char> casters_, receivers_, visible_;  ///< by object: whether it is one
+  std::vector<std::uint32_t> largestFirst_;          ///< receivers, the likeliest to be shadowed first
+  std::vector<Placed> frontToBack_;                  ///< visible receivers
+  std::uint64_t castersRevision_ = 0, sceneRevision_ = 0;
+  bool objectsListed_ = false;  ///< in this frame the list of objects was another
+  std::vector<std::unique_ptr<LightHistory>> histories_;
 };
+
+// Of the input, for what is kept between frames.
+std::uint64_t lightRevisionOf(const FrameInput& input, std::size_t light);
+std::uint32_t lightNumberOf(const FrameInput& input, std::size_t light);
+std::uint64_t cameraKeyOf(const FrameInput& input);
 
 /// True when the caster's penumbra region (all rays from points of the light through the box) can meet the
 /// other box. Conservative: never false when a shadow is possible.
 bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& casterWorld,
                        const scene::Bounds& receiverWorld);
+/// The same where the light's space is known.
+bool shadowRegionMeets(const scene::AreaLight& light, const LightSpace& space,
+                       const scene::Bounds& casterWorld, const scene::Bounds& receiverWorld);
 
 /// True when the box can be inside the camera's view. Conservative.
 bool visibleFrom(const scene::Camera& camera, double aspectWidthOverHeight, const scene::Bounds& boundsWorld);

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <vector>
-
-#include "planner/light_space.hpp"
+#include <utility>
 
 namespace halfshadow::planner {
 namespace {
@@ -29,9 +27,7 @@ double stepDown(double value) {
 }
 
 struct Interval {
-  double low = std::numeric_limits<double>::infinity();
-  double high = -std::numeric_limits<double>::infinity();
-  void include(double value) { low = std::min(low, value), high = std::max(high, value); }
+  double low, high;
 };
 
 struct DepthRange {
@@ -59,35 +55,6 @@ Interval snapTangents(const Interval& tangents, int mapSize, int borderTexels) {
   return {low, low + extent};
 }
 
-// Tangents along one axis (0 = x, 1 = y): of all points where they all lie before the light, else of their
-// part beyond `nearDistance`. Points are not joined to casters, so a point behind the light may belong to any
-// of them: wherever a caster is cut, it is cut inside the box of all points. `spread`: see
-// LightFitOptions::centerSpread.
-Interval fitTangents(const std::vector<glm::dvec3>& pointsLight, int axis, double nearest,
-                     const DepthRange& depth, double spread) {
-  const double nearDistance = depth.nearDistance;
-  Interval tangents, lateral;
-  const auto include = [&](double side, double z) {
-    const double shift = spread * std::abs(1.0 / z - 1.0 / depth.farDistance);
-    tangents.include(side / z - shift);
-    tangents.include(side / z + shift);
-  };
-  bool cut = false;
-  for (const glm::dvec3& point : pointsLight) {
-    lateral.include(point[axis]);
-    if (nearest > 0.0 || point.z >= nearDistance) {
-      include(point[axis], point.z);
-    } else {
-      cut = true;
-    }
-  }
-  if (cut) {
-    include(lateral.low, nearDistance);
-    include(lateral.high, nearDistance);
-  }
-  return tangents;
-}
-
 /// The part of a convex polygon on the inner side of sign * axis <= sign * limit.
 void clipPolygon(std::vector<glm::dvec3>& polygon, int axis, double sign, double limit) {
   std::vector<glm::dvec3> kept;
@@ -101,17 +68,23 @@ void clipPolygon(std::vector<glm::dvec3>& polygon, int axis, double sign, double
   polygon = std::move(kept);
 }
 
-/// Whether a triangle, three points each, has a part of positive extent inside the box or on its sides, other
-/// than in its lowest plane: what lies in the light's own plane shadows nothing.
-bool anyTriangleWithin(const std::vector<glm::dvec3>& points, const glm::dvec3& low, const glm::dvec3& high) {
+/// Whether a triangle of the caster has a part of positive extent inside the box or on its sides, other than
+/// in its lowest plane: what lies in the light's own plane shadows nothing.
+bool anyTriangleWithin(const CasterShape& caster, const LightSpace& space, const glm::dvec3& low,
+                       const glm::dvec3& high) {
+  const scene::TriangleMesh& mesh = *caster.mesh;
   std::vector<glm::dvec3> polygon;
-  for (std::size_t i = 0; i + 2 < points.size(); i += 3) {
-    const glm::dvec3 least = glm::min(points[i], glm::min(points[i + 1], points[i + 2]));
-    const glm::dvec3 most = glm::max(points[i], glm::max(points[i + 1], points[i + 2]));
+  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
+    polygon.clear();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const glm::dvec3 position(mesh.positions[mesh.indices[3 * t + k]]);
+      polygon.push_back(
+          space.lightFromWorld(glm::dvec3(*caster.worldFromObject * glm::dvec4(position, 1.0))));
+    }
+    const glm::dvec3 least = glm::min(polygon[0], glm::min(polygon[1], polygon[2]));
+    const glm::dvec3 most = glm::max(polygon[0], glm::max(polygon[1], polygon[2]));
     if (most.z <= low.z || glm::any(glm::lessThan(most, low)) || glm::any(glm::greaterThan(least, high)))
       continue;
-    polygon.assign(points.begin() + static_cast<std::ptrdiff_t>(i),
-                   points.begin() + static_cast<std::ptrdiff_t>(i) + 3);
     for (int axis = 0; axis < 3 && !polygon.empty(); ++axis) {
       clipPolygon(polygon, axis, 1.0, high[axis]);
       clipPolygon(polygon, axis, -1.0, low[axis]);
@@ -121,6 +94,10 @@ bool anyTriangleWithin(const std::vector<glm::dvec3>& points, const glm::dvec3& 
   return false;
 }
 
+bool sameSpace(const LightSpace& a, const LightSpace& b) {
+  return a.originWorld == b.originWorld && a.axisX == b.axisX && a.axisY == b.axisY && a.axisZ == b.axisZ &&
+         a.halfSize == b.halfSize;
+}
 }  // namespace
 
 glm::dmat4 LightFit::clipFromLight() const {
@@ -139,41 +116,136 @@ double LightFit::storedDepth(double z) const {
   return (1.0 / nearDistance - 1.0 / z) / (1.0 / nearDistance - 1.0 / farDistance);
 }
 
-LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
-                  const LightFitOptions& options) {
-  const LightSpace space = lightSpace(light);
-  LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
-  std::vector<glm::dvec3> pointsLight;
-  pointsLight.reserve(casterPointsWorld.size());
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-  for (const glm::dvec3& point : casterPointsWorld) {
-    pointsLight.push_back(space.lightFromWorld(point));
-    nearest = std::min(nearest, pointsLight.back().z);
-    farthest = std::max(farthest, pointsLight.back().z);
+LightFitter::Extent LightFitter::extentOf(const CasterShape& caster) const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Extent extent{.id = caster.id, .revision = caster.revision};
+  glm::dvec3 low(kInfinity), high(-kInfinity);
+  extent.tangentLow = glm::dvec2(kInfinity), extent.tangentHigh = glm::dvec2(-kInfinity);
+  for (const glm::dvec3& world : caster.pointsWorld) {
+    const glm::dvec3 point = space_.lightFromWorld(world);
+    low = glm::min(low, point), high = glm::max(high, point);
+    extent.tangentLow = glm::min(extent.tangentLow, (glm::dvec2(point) - centerSpread_) / point.z);
+    extent.tangentHigh = glm::max(extent.tangentHigh, (glm::dvec2(point) + centerSpread_) / point.z);
   }
-  if (!(farthest > 0.0)) return fit;
-  if (options.pointsAreTriangles) {
-    const double distance = options.nearShare * 2.0 * std::max(fit.halfSize.x, fit.halfSize.y);
-    fit.casterNearLight = anyTriangleWithin(pointsLight, glm::dvec3(-fit.halfSize - distance, 0.0),
-                                            glm::dvec3(fit.halfSize + distance, distance));
+  extent.nearest = low.z, extent.farthest = high.z;
+  extent.low = glm::dvec2(low), extent.high = glm::dvec2(high);
+  const glm::dvec3 nearLow(-space_.halfSize - nearLightDistance_, 0.0),
+      nearHigh(space_.halfSize + nearLightDistance_, nearLightDistance_);
+  // Triangles are looked at where the box comes near enough.
+  extent.nearLight = nearLightDistance_ > 0.0 && caster.mesh != nullptr && high.z > nearLow.z &&
+                     glm::all(glm::greaterThanEqual(high, nearLow)) &&
+                     glm::all(glm::lessThanEqual(low, nearHigh)) &&
+                     anyTriangleWithin(caster, space_, nearLow, nearHigh);
+  return extent;
+}
+
+void LightFitter::measure(std::span<const CasterShape> casters) {
+  // Those of the frame before stay where they are, while they are the same.
+  std::size_t same = 0;
+  const std::size_t common = std::min(extents_.size(), casters.size());
+  for (; same < common && extents_[same].id == casters[same].id; ++same) {
+    if (extents_[same].revision == casters[same].revision) continue;
+    extents_[same] = extentOf(casters[same]);
+    ++castersMeasured_;
+  }
+  before_.assign(extents_.begin() + static_cast<std::ptrdiff_t>(same), extents_.end());
+  extents_.resize(same);
+  auto known = before_.begin();
+  for (const CasterShape& caster : casters.subspan(same)) {
+    // Casters come in the order of their ids; what is in another order is measured again.
+    while (known != before_.end() && known->id < caster.id) ++known;
+    if (known != before_.end() && known->id == caster.id && known->revision == caster.revision) {
+      extents_.push_back(*known++);
+    } else {
+      extents_.push_back(extentOf(caster));
+      ++castersMeasured_;
+    }
+  }
+}
+
+/// Of all points where all casters lie before the light, else (`cut`) of their part beyond the near distance.
+/// Points are not joined to triangles, so a point behind the light may belong to any of them: wherever a
+/// caster is cut, it is cut inside the box of all points. See LightFitOptions::centerSpread.
+void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
+                              double alignedDistance, glm::dvec2& low, glm::dvec2& high) const {
+  const auto include = [&](const glm::dvec2& side, double z) {
+    low = glm::min(low, (side - centerSpread_) / z), high = glm::max(high, (side + centerSpread_) / z);
+  };
+  glm::dvec2 boxLow(std::numeric_limits<double>::infinity()), boxHigh = -boxLow;
+  bool anyCut = false;
+  for (std::size_t i = 0; i < extents_.size(); ++i) {
+    const Extent& extent = extents_[i];
+    boxLow = glm::min(boxLow, extent.low), boxHigh = glm::max(boxHigh, extent.high);
+    if (!cut || extent.nearest >= nearDistance) {
+      low = glm::min(low, extent.tangentLow), high = glm::max(high, extent.tangentHigh);
+      continue;
+    }
+    anyCut = true;
+    for (const glm::dvec3& world : casters[i].pointsWorld) {
+      const glm::dvec3 point = space_.lightFromWorld(world);
+      if (point.z >= nearDistance) include(glm::dvec2(point), point.z);
+    }
+  }
+  if (anyCut) include(boxLow, nearDistance);
+  if (anyCut) include(boxHigh, nearDistance);
+  // Nothing lies beyond the distance where all centres agree.
+  low += centerSpread_ / alignedDistance, high -= centerSpread_ / alignedDistance;
+}
+
+LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                          const LightFitOptions& options) {
+  const LightSpace space = lightSpace(light);
+  const double nearLightDistance = options.nearShare * 2.0 * std::max(space.halfSize.x, space.halfSize.y);
+  if (!sameSpace(space, space_) || nearLightDistance != nearLightDistance_ ||
+      options.centerSpread != centerSpread_) {
+    extents_.clear();
+  }
+  centerSpread_ = options.centerSpread;
+  space_ = space;
+  nearLightDistance_ = nearLightDistance;
+  measure(casters);
+  LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
+  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+  for (const Extent& extent : extents_) {
+    nearest = std::min(nearest, extent.nearest), farthest = std::max(farthest, extent.farthest);
+    fit.casterNearLight = fit.casterNearLight || extent.nearLight;
+  }
+  if (!(farthest > 0.0)) {
+    fit.casterNearLight = false;
+    return fit;
   }
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
+  const double size = std::max(space.halfSize.x, space.halfSize.y);
+  fit.alignedDistance = size > 0.0 ? stepUp(farthest / size) * size : depth.farDistance;
   fit.nearestCaster = std::max(nearest, depth.nearDistance);
   fit.farthestCaster = farthest;
   fit.castersBeforeNear = nearest < depth.nearDistance;
   fit.castersCrossPlane = !(nearest > 0.0);
+  glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
+  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, fit.alignedDistance, low, high);
   for (int axis = 0; axis < 2; ++axis) {
-    Interval tangents = fitTangents(pointsLight, axis, nearest, depth, options.centerSpread[axis]);
-    if (tangents.low > options.maxTangent || tangents.high < -options.maxTangent) return fit;
-    tangents = {std::max(tangents.low, -options.maxTangent), std::min(tangents.high, options.maxTangent)};
+    if (low[axis] > options.maxTangent || high[axis] < -options.maxTangent) return fit;
+    const Interval tangents = {std::max(low[axis], -options.maxTangent),
+                               std::min(high[axis], options.maxTangent)};
     const Interval snapped = snapTangents(tangents, options.mapSize, options.borderTexels);
     fit.tangentLow[axis] = snapped.low;
     fit.tangentHigh[axis] = snapped.high;
   }
   fit.empty = false;
   return fit;
+}
+
+LightFit fitLight(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                  const LightFitOptions& options) {
+  return LightFitter().fit(light, casters, options);
+}
+
+LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> pointsWorld,
+                  const LightFitOptions& options) {
+  const CasterShape all{.pointsWorld = pointsWorld};
+  return fitLight(light, {&all, 1}, options);
 }
 
 }  // namespace halfshadow::planner

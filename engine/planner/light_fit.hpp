@@ -5,13 +5,15 @@
 /// direction, sides parallel to the light's, fitted to the casters. Pure data, double precision.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <span>
-#include <string>
+#include <vector>
 
-#include "base/error.hpp"
+#include "planner/light_space.hpp"
 #include "scene/bounds.hpp"
 #include "scene/light.hpp"
+#include "scene/mesh.hpp"
 
 namespace halfshadow::planner {
 
@@ -24,6 +26,9 @@ struct LightFit {
   glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
   glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
   double nearDistance = 1.0, farDistance = 2.0;  ///< along z
+  /// Beyond all casters; in steps of the light's size, so that it is the same in whatever units. Of a split
+  /// light, where the places in all its maps agree.
+  double alignedDistance = 2.0;
   /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
   /// long as the scene.
   double nearestCaster = 1.0, farthestCaster = 2.0;
@@ -45,20 +50,63 @@ struct LightFit {
 
 struct LightFitOptions {
   int mapSize = 1024;
-  int borderTexels = 2;             ///< kept free of casters, so that clamped taps outside read "lit"
-  double maxTangent = 8.0;          ///< casters farther off-axis are cut: 83 degrees
-  double minNearShare = 1e-3;       ///< near is at least this share of the casters' largest distance
-  bool pointsAreTriangles = false;  ///< three a triangle: needed to judge casterNearLight
+  int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
+  double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
+  double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
   double nearShare = 1.0;
   /// Half extent of the centres of sub-lights whose maps share the window, see SubLights; the window then
-  /// holds the casters as each of them sees them, shifted so that they agree at the far distance.
+  /// holds the casters as each of them sees them, shifted so that they agree at alignedDistance.
   glm::dvec2 centerSpread{0.0};
 };
 
-/// Smallest view of `casterPointsWorld` (corners of the casters' boxes, or their vertices: tighter) that
-/// fulfils the options; extents grow in steps of 1/16 octave and the origin is snapped to whole texels, so
-/// that a moving caster does not make static shadow edges crawl.
-LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
+/// A caster as fits see it.
+struct CasterShape {
+  std::uint64_t id = 0, revision = 0;  ///< `revision` changes with its mesh or place
+  /// Their convex hull holds it: see scene::enclosingPoints().
+  std::span<const glm::dvec3> pointsWorld;
+  scene::Bounds boundsWorld;  ///< of the points; fits do not read it
+  /// Both, or none: then it is never casterNearLight.
+  const scene::TriangleMesh* mesh = nullptr;
+  const glm::dmat4* worldFromObject = nullptr;
+};
+
+/// Fits one light, frame after frame. Of a caster and a light that are where they were it looks at nothing
+/// again.
+class LightFitter {
+ public:
+  /// Smallest view of the casters' points that fulfils the options; extents grow in steps of 1/16 octave and
+  /// the origin is snapped to whole texels, so that a moving caster does not make static shadow edges crawl.
+  LightFit fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
+               const LightFitOptions& options);
+  /// Casters whose points were looked at, since it was made.
+  std::uint64_t castersMeasured() const { return castersMeasured_; }
+
+ private:
+  /// Of one caster in light space.
+  struct Extent {
+    std::uint64_t id = 0, revision = 0;
+    double nearest = 0.0, farthest = 0.0;  ///< along z
+    glm::dvec2 low{0.0}, high{0.0};
+    glm::dvec2 tangentLow{0.0}, tangentHigh{0.0};  ///< where all of it lies before the light
+    bool nearLight = false;
+  };
+  Extent extentOf(const CasterShape& caster) const;
+  void measure(std::span<const CasterShape> casters);
+  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
+                   double alignedDistance, glm::dvec2& low, glm::dvec2& high) const;
+
+  LightSpace space_;
+  double nearLightDistance_ = 0.0;
+  glm::dvec2 centerSpread_{0.0};
+  std::vector<Extent> extents_;  ///< of the casters in their order
+  std::vector<Extent> before_;   ///< of the frame before, while they are sorted in
+  std::uint64_t castersMeasured_ = 0;
+};
+
+/// The same once.
+LightFit fitLight(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                  const LightFitOptions& options);
+LightFit fitLight(const scene::AreaLight& light, std::span<const glm::dvec3> pointsWorld,
                   const LightFitOptions& options);
 
 }  // namespace halfshadow::planner

@@ -4,20 +4,15 @@
 
 #include <cmath>
 
-#include "scene/bounds.hpp"
-
 namespace halfshadow::planner {
 
-scene::AreaLight lightWithinReach(const scene::AreaLight& light,
-                                  std::span<const glm::dvec3> casterPointsWorld) {
-  scene::Bounds bounds;
-  for (const glm::dvec3& point : casterPointsWorld) bounds.include(point);
-  if (bounds.empty()) return light;
-  const double radius = 0.5 * glm::length(bounds.high - bounds.low);
+scene::AreaLight lightWithinReach(const scene::AreaLight& light, const scene::Bounds& castersWorld) {
+  if (castersWorld.empty()) return light;
+  const double radius = castersWorld.radius();
   if (!(radius > 0.0) || !std::isfinite(radius)) return light;
   // Whole octaves for both: the light's distance about a point of a grid as wide as the casters.
   const double step = std::exp2(std::ceil(std::log2(radius)));
-  const glm::dvec3 middle = step * glm::round(bounds.center() / step);
+  const glm::dvec3 middle = step * glm::round(castersWorld.center() / step);
   const double octaves =
       std::floor(std::log2(glm::length(light.centerWorld - middle) / (kLightReach * step)));
   if (!(octaves >= 1.0)) return light;

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <glm/glm.hpp>
-#include <span>
 
+#include "scene/bounds.hpp"
 #include "scene/light.hpp"
 
 namespace halfshadow::planner {
@@ -18,7 +18,6 @@ inline constexpr double kLightReach = 16384.0;
 /// receivers cannot tell from it: directions turn by less than 1 / kLightReach over the casters. Beyond,
 /// single precision of distances is coarser than the casters: a sun at 10^7 units tells no depths within ten
 /// apart. Moves in steps, so that a caster that moves a little does not move the light.
-scene::AreaLight lightWithinReach(const scene::AreaLight& light,
-                                  std::span<const glm::dvec3> casterPointsWorld);
+scene::AreaLight lightWithinReach(const scene::AreaLight& light, const scene::Bounds& castersWorld);
 
 }  // namespace halfshadow::planner

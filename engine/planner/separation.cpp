@@ -38,11 +38,15 @@ bool isInside(const glm::dvec3& normal, const std::vector<glm::dvec3>& outline, 
 }
 }  // namespace
 
-Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
-    : input_(input),
-      light_(light),
-      lightCorners_(lightCornersRelative(light)),
-      bodies_(input.objects.size()) {
+void Separation::begin(const FrameInput& input, const scene::AreaLight& light, bool anew) {
+  input_ = &input;
+  light_ = &light;
+  lightCorners_ = lightCornersRelative(light);
+  if (anew) {
+    bodies_.resize(input.objects.size());
+    for (Body& known : bodies_) known.forget();
+    byCamera_.clear();
+  }
   if (input.camera == nullptr) return;
   eye_ = input.camera->eyeWorld - light.centerWorld;
   const glm::dmat3 worldFromView = glm::transpose(glm::dmat3(scene::viewFromWorld(*input.camera)));
@@ -55,12 +59,12 @@ Separation::Separation(const FrameInput& input, const scene::AreaLight& light)
 }
 
 const Separation::Body& Separation::body(std::uint32_t index) {
-  std::optional<Body>& known = bodies_[index];
-  if (known) return *known;
-  const PlannedObject& object = input_.objects[index];
-  Body& made = known.emplace();
+  Body& made = bodies_[index];
+  if (made.known) return made;
+  const PlannedObject& object = input_->objects[index];
+  made.known = true;
   made.fromObject = object.worldFromObject;
-  made.fromObject[3] -= glm::dvec4(light_.centerWorld, 0.0);
+  made.fromObject[3] -= glm::dvec4(light_->centerWorld, 0.0);
   made.largestTranslation = glm::abs(glm::dvec3(object.worldFromObject[3]));
   const scene::Bounds& box = object.support->bounds;
   const auto corners = box.corners();
@@ -73,9 +77,9 @@ const Separation::Body& Separation::body(std::uint32_t index) {
 
 const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
   body(index);
-  Body& shape = *bodies_[index];
+  Body& shape = bodies_[index];
   if (!shape.planes.empty()) return shape.planes;
-  const scene::SupportingPlanes& support = *input_.objects[index].support;
+  const scene::SupportingPlanes& support = *input_->objects[index].support;
   const glm::dmat3 normalFromObject = glm::transpose(glm::inverse(glm::dmat3(shape.fromObject)));
   shape.planes.reserve(support.ofFaces.size() + 6);
   const auto add = [&](const scene::SupportingPlane& plane) {
@@ -105,7 +109,7 @@ const std::vector<Separation::Plane>& Separation::planes(std::uint32_t index) {
 double Separation::rounding(std::uint32_t index, const glm::dvec3& direction) {
   const Body& shape = body(index);
   const glm::dvec3 inObject = glm::abs(glm::transpose(glm::dmat3(shape.fromObject)) * direction);
-  return kFloat * (glm::dot(inObject, input_.objects[index].support->largestCoordinate) +
+  return kFloat * (glm::dot(inObject, input_->objects[index].support->largestCoordinate) +
                    glm::dot(glm::abs(direction), shape.largestTranslation)) +
          kDouble * glm::length(shape.center);
 }
@@ -119,9 +123,15 @@ bool Separation::reachesOnlyFrom(std::uint32_t index, const glm::dvec3& directio
     return true;
   }
   // The box is no help where the shape does not fill its corners: a tilted thing that stands on a ground.
-  const scene::TriangleMesh& mesh = *input_.objects[index].mesh;
+  const scene::TriangleMesh& mesh = *input_->objects[index].mesh;
   const glm::dvec3 inObject = glm::transpose(glm::dmat3(shape.fromObject)) * direction;
   const double leastInObject = least - glm::dot(direction, glm::dvec3(shape.fromObject[3]));
+  if (const scene::EnclosingPoints* enclosing = input_->objects[index].enclosing) {
+    const bool all = std::ranges::all_of(enclosing->points, [&](const glm::dvec3& point) {
+      return glm::dot(inObject, point) >= leastInObject;
+    });
+    if (all || enclosing->exact) return all;
+  }
   return std::ranges::all_of(mesh.indices, [&](std::uint32_t vertex) {
     return glm::dot(inObject, glm::dvec3(mesh.positions[vertex])) >= leastInObject;
   });
@@ -135,7 +145,7 @@ bool Separation::enclosesLight(std::uint32_t index) {
 }
 
 bool Separation::shadowsItself(std::uint32_t index) {
-  const scene::SupportingPlanes& support = *input_.objects[index].support;
+  const scene::SupportingPlanes& support = *input_->objects[index].support;
   // The part of the light behind a flat receiver's own plane is not its own doing.
   if (support.planar) return false;
   if (!support.convex) return true;
@@ -145,44 +155,74 @@ bool Separation::shadowsItself(std::uint32_t index) {
   }
   if (enclosesLight(index)) return false;
   askedCamera_ = true;
-  return maySeeInside(input_, index);
+  return maySeeInside(*input_, index);
+}
+
+/// Takes what of the triangle lies behind the plane into `behind_`: the part there is the hull of its corners
+/// there and of where its edges pass, and so is its image on the plane, seen from anywhere before it. False
+/// when an edge passes outside of the outline, which needs no camera to tell.
+bool Separation::takeBehind(const Plane& plane, std::uint32_t receiver, std::size_t triangle, double slack) {
+  const scene::TriangleMesh& mesh = *input_->objects[receiver].mesh;
+  const glm::dmat4& fromObject = bodies_[receiver].fromObject;
+  std::array<glm::dvec3, 3> corners;
+  std::array<double, 3> heights;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const glm::dvec3 position(mesh.positions[mesh.indices[3 * triangle + k]]);
+    corners[k] = glm::dvec3(fromObject * glm::dvec4(position, 1.0));
+    heights[k] = glm::dot(plane.normal, corners[k]) - plane.offset;
+  }
+  if (std::ranges::min(heights) >= -slack) return true;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t next = (k + 1) % 3;
+    if (heights[k] < 0.0) behind_.push_back(corners[k]);
+    if ((heights[k] < 0.0) == (heights[next] < 0.0)) continue;
+    const double share = heights[k] / (heights[k] - heights[next]);
+    const glm::dvec3 passes = corners[k] + (corners[next] - corners[k]) * share;
+    if (!isInside(plane.normal, outline_, passes, slack)) return false;
+  }
+  return true;
+}
+
+/// Of the receiver's blocks of triangles those across the plane are taken, and of those behind the numbers.
+/// False as with takeBehind().
+bool Separation::takeAcross(const Plane& plane, std::uint32_t receiver, double slack) {
+  behind_.clear();
+  blocksBehind_.clear();
+  constexpr std::size_t kBlock = scene::SupportingPlanes::kBlockTriangles;
+  const scene::TriangleMesh& mesh = *input_->objects[receiver].mesh;
+  const std::vector<scene::Bounds>& blocks = input_->objects[receiver].support->blocks;
+  const glm::dmat4& fromObject = body(receiver).fromObject;
+  const glm::dvec3 inObject = glm::transpose(glm::dmat3(fromObject)) * plane.normal;
+  const double offset = plane.offset - glm::dot(plane.normal, glm::dvec3(fromObject[3]));
+  for (std::size_t i = 0; i < blocks.size(); ++i) {
+    const double middle = glm::dot(inObject, blocks[i].center()) - offset;
+    const double half = 0.5 * glm::dot(glm::abs(inObject), blocks[i].high - blocks[i].low);
+    if (middle - half >= 0.0) continue;
+    if (middle + half < -slack) {
+      blocksBehind_.push_back(i);
+      continue;
+    }
+    const std::size_t end = std::min<std::size_t>((i + 1) * kBlock, mesh.triangleCount());
+    for (std::size_t t = i * kBlock; t < end; ++t) {
+      if (!takeBehind(plane, receiver, t, slack)) return false;
+    }
+  }
+  return true;
 }
 
 /// What of the receiver lies behind the plane is seen only through the plane's outline.
 bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver,
                                    double slack) {
-  if (plane.source == nullptr || plane.source->outline.empty() || input_.camera == nullptr) return false;
-  const Body& shape = body(receiver);
+  if (plane.source == nullptr || plane.source->outline.empty() || input_->camera == nullptr) return false;
   const auto heightOf = [&](const glm::dvec3& point) { return glm::dot(plane.normal, point) - plane.offset; };
   // What does not come before the plane at all is another matter: hardly ever is it wholly hidden.
-  if (std::ranges::all_of(shape.corners, [&](const glm::dvec3& c) { return heightOf(c) <= slack; }))
+  if (std::ranges::all_of(body(receiver).corners, [&](const glm::dvec3& c) { return heightOf(c) <= slack; }))
     return false;
-  std::vector<glm::dvec3> outline;
+  outline_.clear();
   for (const glm::dvec3& corner : plane.source->outline) {
-    outline.emplace_back(body(caster).fromObject * glm::dvec4(corner, 1.0));
+    outline_.emplace_back(body(caster).fromObject * glm::dvec4(corner, 1.0));
   }
-  // The part of a triangle behind is the hull of its corners there and of where its edges pass: so is its
-  // image on the plane, seen from anywhere before it. Where they pass needs no camera.
-  std::vector<glm::dvec3> behind;
-  const scene::TriangleMesh& mesh = *input_.objects[receiver].mesh;
-  for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-    std::array<glm::dvec3, 3> corners;
-    std::array<double, 3> heights;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const glm::dvec3 position(mesh.positions[mesh.indices[3 * t + k]]);
-      corners[k] = glm::dvec3(shape.fromObject * glm::dvec4(position, 1.0));
-      heights[k] = heightOf(corners[k]);
-    }
-    if (std::ranges::min(heights) >= -slack) continue;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::size_t next = (k + 1) % 3;
-      if (heights[k] < 0.0) behind.push_back(corners[k]);
-      if ((heights[k] < 0.0) == (heights[next] < 0.0)) continue;
-      const double share = heights[k] / (heights[k] - heights[next]);
-      const glm::dvec3 passes = corners[k] + (corners[next] - corners[k]) * share;
-      if (!isInside(plane.normal, outline, passes, slack)) return false;
-    }
-  }
+  if (!takeAcross(plane, receiver, slack)) return false;
   askedCamera_ = true;
   const double eyeHeight = heightOf(eye_);
   // Nor may the near plane open what hides.
@@ -190,15 +230,27 @@ bool Separation::hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std
       std::ranges::any_of(nearCorners_, [&](const glm::dvec3& c) { return heightOf(c) <= slack; })) {
     return false;
   }
-  return std::ranges::all_of(behind, [&](const glm::dvec3& point) {
-    const glm::dvec3 seenAt = eye_ + (point - eye_) * (eyeHeight / (eyeHeight - heightOf(point)));
-    return isInside(plane.normal, outline, seenAt, slack);
-  });
+  const auto allHidden = [&] {
+    return std::ranges::all_of(behind_, [&](const glm::dvec3& point) {
+      const glm::dvec3 seenAt = eye_ + (point - eye_) * (eyeHeight / (eyeHeight - heightOf(point)));
+      return isInside(plane.normal, outline_, seenAt, slack);
+    });
+  };
+  if (!allHidden()) return false;
+  constexpr std::size_t kBlock = scene::SupportingPlanes::kBlockTriangles;
+  const std::size_t count = input_->objects[receiver].mesh->triangleCount();
+  for (const std::size_t block : blocksBehind_) {
+    behind_.clear();
+    for (std::size_t t = block * kBlock; t < std::min((block + 1) * kBlock, count); ++t)
+      takeBehind(plane, receiver, t, slack);
+    if (!allHidden()) return false;
+  }
+  return true;
 }
 
 /// With all of the near plane.
 bool Separation::eyeIsInside(std::uint32_t index) {
-  if (input_.camera == nullptr) return false;
+  if (input_->camera == nullptr) return false;
   askedCamera_ = true;
   return std::ranges::all_of(facePlanes(index), [&](const Plane& plane) {
     const double most = plane.offset - rounding(index, plane.normal);
@@ -216,7 +268,7 @@ bool Separation::cannotShadow(std::uint32_t caster, std::uint32_t receiver) {
 }
 
 bool Separation::proves(std::uint32_t caster, std::uint32_t receiver) {
-  const PlannedObject &c = input_.objects[caster], &r = input_.objects[receiver];
+  const PlannedObject &c = input_->objects[caster], &r = input_->objects[receiver];
   if (c.support == nullptr || r.support == nullptr || c.mesh == nullptr || r.mesh == nullptr) return false;
   if (caster == receiver) return !shadowsItself(caster);
   for (const Plane& plane : planes(caster)) {

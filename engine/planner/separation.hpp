@@ -6,8 +6,8 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "planner/frame_planner.hpp"
@@ -30,7 +30,10 @@ namespace halfshadow::planner {
 /// proved anything of.
 class Separation {
  public:
-  Separation(const FrameInput& input, const scene::AreaLight& light);
+  /// For the questions of one frame. What is known of bodies stays, unless `anew`: the light or the list of
+  /// objects is another.
+  void begin(const FrameInput& input, const scene::AreaLight& light, bool anew);
+  void forget(std::uint32_t object) { bodies_[object].forget(); }
   /// Proved: no ray from a point of the receiver that can be seen to the light meets the caster.
   bool cannotShadow(std::uint32_t caster, std::uint32_t receiver);
   /// What the answers so far would have to be asked again for when the camera moves.
@@ -38,7 +41,8 @@ class Separation {
     std::uint32_t caster = 0, receiver = 0;
     bool cannotShadow = false;
   };
-  const std::vector<ByCamera>& byCamera() const { return byCamera_; }
+  std::vector<ByCamera> takeByCamera() { return std::exchange(byCamera_, {}); }
+  void keepByCamera(const ByCamera& answer) { byCamera_.push_back(answer); }
 
  private:
   struct Plane {
@@ -55,29 +59,39 @@ class Separation {
     glm::dvec3 largestTranslation{0.0};
     std::vector<Plane> planes;  ///< of faces first, then of the box; made when first asked for
     std::size_t facePlanes = 0;
+    bool known = false;
+    void forget() {  // but the memory
+      known = false;
+      planes.clear();
+    }
   };
   const Body& body(std::uint32_t object);
   const std::vector<Plane>& planes(std::uint32_t object);
   std::span<const Plane> facePlanes(std::uint32_t object) {
     const std::vector<Plane>& all = planes(object);
-    return {all.data(), bodies_[object]->facePlanes};
+    return {all.data(), bodies_[object].facePlanes};
   }
   double rounding(std::uint32_t object, const glm::dvec3& direction);
   bool proves(std::uint32_t caster, std::uint32_t receiver);
   bool reachesOnlyFrom(std::uint32_t object, const glm::dvec3& direction, double least);
   bool shadowsItself(std::uint32_t object);
+  bool takeBehind(const Plane& plane, std::uint32_t receiver, std::size_t triangle, double slack);
+  bool takeAcross(const Plane& plane, std::uint32_t receiver, double slack);
   bool hidesWhatIsBehind(std::uint32_t caster, const Plane& plane, std::uint32_t receiver, double slack);
   bool enclosesLight(std::uint32_t object);
   bool eyeIsInside(std::uint32_t object);
 
-  const FrameInput& input_;
-  const scene::AreaLight& light_;
-  std::array<glm::dvec3, 4> lightCorners_;
+  const FrameInput* input_ = nullptr;  ///< of this frame, as the light
+  const scene::AreaLight* light_ = nullptr;
+  std::array<glm::dvec3, 4> lightCorners_{};
   glm::dvec3 eye_{0.0};  ///< relative to the light's centre, as are the near plane's corners
   std::array<glm::dvec3, 4> nearCorners_{};
-  std::vector<std::optional<Body>> bodies_;
+  std::vector<Body> bodies_;
   std::vector<ByCamera> byCamera_;
   bool askedCamera_ = false;
+  // Working memory.
+  std::vector<glm::dvec3> outline_, behind_;
+  std::vector<std::size_t> blocksBehind_;
 };
 
 /// The eye, or a part of the near plane, may be inside the object: then it may be seen from within.

@@ -116,8 +116,12 @@ bool centralRayMeets(const glm::dvec3& lightCenter, const glm::dvec3& casterCent
 
 bool shadowRegionMeets(const scene::AreaLight& light, const scene::Bounds& casterWorld,
                        const scene::Bounds& receiverWorld) {
+  return shadowRegionMeets(light, lightSpace(light), casterWorld, receiverWorld);
+}
+
+bool shadowRegionMeets(const scene::AreaLight& light, const LightSpace& space,
+                       const scene::Bounds& casterWorld, const scene::Bounds& receiverWorld) {
   if (casterWorld.empty() || receiverWorld.empty()) return false;
-  const LightSpace space = lightSpace(light);
   const scene::Bounds caster = space.boundsLight(casterWorld), receiver = space.boundsLight(receiverWorld);
   // Rounding in light space is relative to the world coordinates that were subtracted.
   const double scale =

@@ -32,7 +32,10 @@ SubLightGrid subLightGrid(const scene::AreaLight& light, int perSide) {
   const double longer = std::max(u, v);
   if (!(longer > 0.0)) return {};
   const auto along = [&](double side) {
-    return std::clamp(static_cast<int>(std::lround(perSide * side / longer)), 1, perSide);
+    const double share = perSide * side / longer;
+    // An odd number stays odd, so that there is a sub-light in the middle.
+    const long count = perSide % 2 == 0 ? std::lround(share) : 2 * std::lround(0.5 * (share - 1.0)) + 1;
+    return std::clamp(static_cast<int>(count), 1, perSide);
   };
   return {along(u), along(v)};
 }
@@ -48,6 +51,13 @@ int subLightMapSize(const SubLightGrid& grid, int mapSize) {
 
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
                        const SubLightGrid& grid, int mapSize) {
+  const CasterShape all{.pointsWorld = casterPointsWorld};
+  LightFitter fitter;
+  return fitSubLights(light, {&all, 1}, grid, mapSize, fitter);
+}
+
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                       const SubLightGrid& grid, int mapSize, LightFitter& fitter) {
   const LightSpace space = lightSpace(light);
   const auto inPlane = [&](const glm::dvec3& vector) {
     return glm::dvec2(glm::dot(space.axisX, vector), glm::dot(space.axisY, vector));
@@ -60,10 +70,9 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3
   lights.stepU = 2.0 * shareU;
   lights.stepV = 2.0 * shareV;
   const glm::dvec2 spread = glm::abs(halfU - shareU) + glm::abs(halfV - shareV);
-  lights.shared =
-      fitLight(light, casterPointsWorld, {.mapSize = subLightMapSize(grid, mapSize), .centerSpread = spread});
+  lights.shared = fitter.fit(
+      light, casters, {.mapSize = subLightMapSize(grid, mapSize), .nearShare = 0.0, .centerSpread = spread});
   if (lights.shared.empty) return lights;
-  lights.alignedDistance = lights.shared.farDistance;
   for (int j = 0; j < grid.alongV; ++j) {
     for (int i = 0; i < grid.alongU; ++i) {
       const glm::dvec2 center =
@@ -71,8 +80,8 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3
       LightFit& fit = lights.fits.emplace_back(lights.shared);
       fit.halfSize = lights.halfSize;
       fit.lightFromWorld = translated(center) * fit.lightFromWorld;
-      fit.tangentLow -= center / lights.alignedDistance;
-      fit.tangentHigh -= center / lights.alignedDistance;
+      fit.tangentLow -= center / lights.shared.alignedDistance;
+      fit.tangentHigh -= center / lights.shared.alignedDistance;
     }
   }
   return lights;

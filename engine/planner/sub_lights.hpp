@@ -37,7 +37,7 @@ int subLightMapSize(const SubLightGrid& grid, int mapSize);
 
 /// What a split light is seen through. All sub-lights lie in one plane and their maps cover one window whose
 /// places agree at one distance; hence a point at z that the light's centre sees at tangents t lies, in the
-/// map of a sub-light at c, at t + c (1 / alignedDistance - 1 / z).
+/// map of a sub-light at c, at t + c (1 / shared.alignedDistance - 1 / z).
 struct SubLights {
   SubLightGrid grid;
   /// Fragments look for the penumbra's width in the map of the sub-light in the middle alone, and filter all
@@ -46,13 +46,15 @@ struct SubLights {
   /// The light as it is, seen from its centre: but in the window that all share, by a map of their size.
   LightFit shared;
   glm::dvec2 halfSize{0.0};  ///< of a sub-light's, as LightFit::halfSize of the light's
-  double alignedDistance = 1.0;
   /// Light space, from a sub-light's centre to that of the next along halfU and halfV.
   glm::dvec2 stepU{0.0}, stepV{0.0};
   std::vector<LightFit> fits;  ///< each from its own centre; along halfU first, then along halfV
 };
 
-/// `empty` fits when no caster lies before the light.
+/// `empty` fits when no caster lies before the light. `fitter`: of this light's splits alone.
+SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
+                       const SubLightGrid& grid, int mapSize, LightFitter& fitter);
+/// The same once.
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
                        const SubLightGrid& grid, int mapSize);
 

@@ -24,6 +24,8 @@ struct AreaLight {
   /// World units; 0: the intensity is the same at every distance. Never taken from what the scene holds, so
   /// that nothing but the light and the place of a surface decides how bright that is lit.
   double referenceDistance = 0.0;
+
+  bool operator==(const AreaLight&) const = default;
 };
 
 /// Light given by centre, half-extent vectors; both zero is a point that shines downward, -y, as `emission`

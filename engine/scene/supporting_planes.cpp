@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "scene/convex_hull.hpp"
+
 namespace halfshadow::scene {
 namespace {
 /// Faces that are tried: the largest, since it is grounds, walls and sides of boxes that things stand before.
@@ -43,32 +45,6 @@ std::vector<std::size_t> largestFaces(const TriangleMesh& mesh) {
       [&](std::size_t a, std::size_t b) { return areas[a] != areas[b] ? areas[a] > areas[b] : a < b; });
   order.resize(count);
   return order;
-}
-
-/// Of points in a plane, in order about its normal.
-/// Based on: Andrew, Another Efficient Algorithm for Convex Hulls in Two Dimensions, 1979.
-std::vector<glm::dvec3> convexHull(std::vector<glm::dvec3> points, const glm::dvec3& normal) {
-  const glm::dvec3 helper = std::abs(normal.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 1, 0);
-  const glm::dvec3 x = glm::normalize(glm::cross(helper, normal)), y = glm::cross(normal, x);
-  const auto at = [&](const glm::dvec3& p) { return glm::dvec2(glm::dot(x, p), glm::dot(y, p)); };
-  std::ranges::sort(points, [&](const glm::dvec3& a, const glm::dvec3& b) {
-    const glm::dvec2 pa = at(a), pb = at(b);
-    return pa.x != pb.x ? pa.x < pb.x : pa.y < pb.y;
-  });
-  std::vector<glm::dvec3> hull;
-  const auto extend = [&](const glm::dvec3& p, std::size_t least) {
-    while (hull.size() >= least + 2) {
-      const glm::dvec2 a = at(hull[hull.size() - 2]), b = at(hull.back()), c = at(p);
-      if ((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x) > 0.0) break;
-      hull.pop_back();
-    }
-    hull.push_back(p);
-  };
-  for (const glm::dvec3& p : points) extend(p, 0);
-  const std::size_t lower = hull.size();
-  for (auto p = points.rbegin(); p != points.rend(); ++p) extend(*p, lower - 1);
-  if (!hull.empty()) hull.pop_back();
-  return hull;
 }
 
 class Finder {
@@ -141,7 +117,7 @@ class Finder {
                                                                   face.corners[2] - face.corners[0]));
       (area > 0.0 ? towards : away) += std::abs(area);
     }
-    std::vector<glm::dvec3> hull = convexHull(corners, plane.normal);
+    std::vector<glm::dvec3> hull = convexPolygon(corners, plane.normal);
     double area = 0.0, perimeter = 0.0;
     for (std::size_t i = 0; i < hull.size(); ++i) {
       const glm::dvec3 &a = hull[i], &b = hull[(i + 1) % hull.size()];
@@ -166,6 +142,11 @@ SupportingPlanes supportingPlanesOf(const TriangleMesh& mesh, const glm::dvec3& 
   planes.largestCoordinate =
       glm::max(glm::abs(planes.bounds.low + recenteredBy), glm::abs(planes.bounds.high + recenteredBy));
   Finder(mesh, planes).find();
+  constexpr std::size_t kBlockIndices = 3 * SupportingPlanes::kBlockTriangles;
+  for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+    if (i % kBlockIndices == 0) planes.blocks.emplace_back();
+    planes.blocks.back().include(glm::dvec3(mesh.positions[mesh.indices[i]]));
+  }
   return planes;
 }
 

@@ -29,6 +29,9 @@ struct SupportingPlanes {
   bool planar = false;
   /// they bound a convex body and each of them lies in one of `ofFaces`.
   bool convex = false;
+  /// Of each kBlockTriangles triangles that follow each other: most are passed over by their box.
+  std::vector<Bounds> blocks;
+  static constexpr std::size_t kBlockTriangles = 64;
   /// Largest coordinates along each axis, as the host gave them: their rounding is what planes are sure to.
   glm::dvec3 largestCoordinate{0.0};
 };

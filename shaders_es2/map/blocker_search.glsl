@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Mean gap between the receiver and what blocks it, from HS_SEARCH x HS_SEARCH taps over a rectangle of the map.
+// Mean gap between the receiver and what blocks it, from taps over a rectangle of the map.
 // Based on: Fernando, "Percentage-Closer Soft Shadows", 2005 (blocker search).
 // Needs spread_places.glsl.
 
@@ -11,12 +11,12 @@ HS_HIGHP vec2 hs_searchTap(HS_HIGHP vec2 texel, HS_HIGHP float plane, HS_HIGHP f
   return (1.0 - step(min(plane, 0.0) - bias, gap)) * vec2(1.0, gap);
 }
 
-// asked: sides in texels. Returns x: share of taps that block, y: mean distance in depth from blocker to receiver.
-HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked) {
+// asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker to receiver.
+HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 width = max(asked, vec2(1.0));
   HS_HIGHP vec2 gradient = hs_gradient * width;
-  HS_Places places = hs_firstPlaces(float(HS_SEARCH));
+  HS_Places places = hs_firstPlaces(side);
   HS_HIGHP vec2 found = vec2(0.0);
   if (places.center > 0.5) found = hs_searchTap(hs_texel, 0.0, bias);
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
@@ -29,7 +29,7 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked) {
              hs_searchTap(hs_texel + turned, turnedPlane, bias) + hs_searchTap(hs_texel - turned, -turnedPlane, bias);
     hs_nextPlaces(places);
   }
-  return vec2(found.x * (1.0 / float(HS_SEARCH * HS_SEARCH)), -found.y / max(found.x, 1.0));
+  return vec2(found.x / (side * side), -found.y / max(found.x, 1.0));
 }
 
 // The same over what could hold blockers, and again over what the blockers found ask for as long as that is much less: a
@@ -38,11 +38,11 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked) {
 // until the region ends before the foot; regions wider than that let light in along it.
 HS_HIGHP vec2 hs_searchBlockers() {
   HS_HIGHP float asked = hs_widestGap;
-  HS_HIGHP vec2 found = hs_searchTaps(hs_kernel * asked);
+  HS_HIGHP vec2 found = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH));
   for (int i = 0; i < 4; ++i) {
     if (found.x <= 0.0 || found.y > 0.75 * asked) break;
     asked = found.y;
-    HS_HIGHP vec2 nearer = hs_searchTaps(hs_kernel * asked);
+    HS_HIGHP vec2 nearer = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH));
     if (nearer.x <= 0.0) break;
     found = nearer;
   }

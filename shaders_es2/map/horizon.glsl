@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Share of a light above the horizon of the fragment's facet. What is below it, a closed caster hides itself: the way
-// there begins inside. Maps cannot tell, since there the caster is thinner than any bias.
+// Share of a light above the horizon of the fragment's facet. What is below it, a closed caster hides itself, since the
+// way there begins inside, and an open one as far as it is a body. Maps cannot tell: there the caster is thinner than
+// any bias.
 uniform HS_HIGHP vec4 u_lightSides;  // texels per unit of depth from one side of the light to the other, xy along u, zw along v
-uniform HS_HIGHP vec4 u_receiver;    // x: 1 for a closed caster, else 0
+uniform HS_HIGHP vec4 u_receiver;    // x: solidity of a caster, 1 for a closed one; else 0
 
 // above: how far its centre is above the horizon, 1 for a light that faces the facet's own gradient; share: of the
 // light's sides. An area on one side of a straight line.
@@ -24,14 +25,14 @@ float hs_lightAbove() {
 #else
   HS_HIGHP vec2 gradient = hs_gradient;
 #endif
-  return u_receiver.x > 0.5 ? hs_shareAbove(gradient, 1.0, vec2(1.0)) : 1.0;
+  return u_receiver.x > 0.0 ? 1.0 - u_receiver.x * (1.0 - hs_shareAbove(gradient, 1.0, vec2(1.0))) : 1.0;
 }
 
 #ifdef HS_SUB_LIGHTS_U
 // Of the sub-light that was entered.
 float hs_subLightAbove() {
-  return u_receiver.x > 0.5 ? hs_shareAbove(hs_centerGradient, hs_turned,
-                                            vec2(1.0 / float(HS_SUB_LIGHTS_U), 1.0 / float(HS_SUB_LIGHTS_V)))
-                            : 1.0;
+  if (u_receiver.x <= 0.0) return 1.0;
+  HS_HIGHP vec2 share = vec2(1.0 / float(HS_SUB_LIGHTS_U), 1.0 / float(HS_SUB_LIGHTS_V));
+  return 1.0 - u_receiver.x * (1.0 - hs_shareAbove(hs_centerGradient, hs_turned, share));
 }
 #endif

@@ -12,7 +12,7 @@
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
 #include "map/blocker_pyramid.glsl"
-#ifdef HS_CASTING_RECEIVER
+#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH)
 #include "map/blocker_search.glsl"
 #endif
 

@@ -16,8 +16,17 @@ float hs_filterOf(HS_HIGHP vec2 width) {
 }
 
 #ifdef HS_SUB_LIGHTS_U
-// HS_ONE_SEARCH: one width for all, that of the whole light in the map of the sub-light in its middle. Errors of a
-// width count the less the more sub-lights there are, and finding it costs more than filtering.
+// HS_ONE_SEARCH: the whole light's penumbra in the map of the sub-light in its middle gives the width that each begins
+// with; what its own taps find then corrects it. A search in each would cost several times as much.
+float hs_correctedFilter(HS_HIGHP vec2 width) {
+#ifdef HS_ONE_SEARCH
+  HS_HIGHP vec2 found = hs_searchTaps(width, float(HS_SPREAD_KERNEL));
+  if (found.x <= 0.0 || found.x >= 1.0) return found.x <= 0.0 ? 1.0 : 0.0;
+  width = u_penumbra.xy * u_subLightShare.xy * found.y;
+#endif
+  return hs_filterOf(width);
+}
+
 float hs_meanVisibility() {
   HS_HIGHP float widestGap = hs_widestGap;
 #ifdef HS_ONE_SEARCH
@@ -30,17 +39,23 @@ float hs_meanVisibility() {
   hs_kernel = u_penumbra.xy * u_subLightShare.xy;
 #endif
   float sum = 0.0;
+  float seen = 0.0;
+  float all = 0.0;
   for (int i = 0; i < HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V; ++i) {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
-    if (above <= 0.0) continue;
+    all += above;
+    // From below the horizon the caster's own body hides the fragment: what a part that reaches above it sees, the
+    // others tell.
+    if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
 #ifndef HS_ONE_SEARCH
     hs_widestGap = widestGap;
     width = hs_penumbraWidth();
 #endif
-    sum += above * hs_filterOf(width);
+    sum += above * hs_correctedFilter(width);
+    seen += above;
   }
-  return sum * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+  return sum * (all / (max(seen, 1e-3) * float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V)));
 }
 #else
 float hs_meanVisibility() { return hs_lightAbove() * hs_filterOf(hs_penumbraWidth()); }

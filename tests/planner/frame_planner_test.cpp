@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <random>
 #include <set>
 
 namespace halfshadow::planner {
@@ -45,7 +47,7 @@ struct World {
 
 bool hasSkip(const FramePlan& plan, const std::string& what, SkipReason reason) {
   for (const Skip& skip : plan.skips) {
-    if (skip.what == what && skip.reason == reason) return true;
+    if (skipName(skip) == what && skip.reason == reason) return true;
   }
   return false;
 }
@@ -210,6 +212,113 @@ TEST(FramePlanner, SeveralLightsAreNamed) {
   EXPECT_TRUE(plan.lights[0].active);
   EXPECT_FALSE(plan.lights[1].active);
   EXPECT_TRUE(hasSkip(plan, "caster 12 for light 1", SkipReason::behindLight));
+}
+
+/// A square of boxes over a ground, all receivers and casters.
+struct Field {
+  std::vector<PlannedObject> objects;
+  scene::AreaLight light{
+      .centerWorld = {0, 60, 0}, .halfU = {1, 0, 0}, .halfV = {0, 0, 1}, .emission = {0, -1, 0}};
+  std::uint64_t lightRevision = 1, lastRevision = 1;
+  scene::Camera camera{.eyeWorld = {5, 30, 40}, .targetWorld = {0, 0, 0}};
+
+  explicit Field(int side) {
+    const double far = 2.0 * side;
+    add({{-far, -2, -far}, {far, -1, far}});
+    for (int x = 0; x < side; ++x) {
+      for (int z = 0; z < side; ++z) add(box({x * 1.5, 0, z * 1.5}, 0.4));
+    }
+  }
+  void add(const scene::Bounds& bounds) {
+    const auto id = static_cast<std::uint32_t>(objects.size() + 1);
+    objects.push_back({.id = id, .boundsWorld = bounds, .revision = ++lastRevision});
+  }
+  void move(std::size_t object, const glm::dvec3& by) {
+    objects[object].boundsWorld.low += by, objects[object].boundsWorld.high += by;
+    objects[object].revision = ++lastRevision;
+  }
+  FramePlan plan(FramePlanner& planner) const {
+    return planner.plan({.objects = objects,
+                         .camera = &camera,
+                         .lights = {&light, 1},
+                         .lightRevisions = {&lightRevision, 1}});
+  }
+};
+
+TEST(FramePlanner, AMoverIsAskedAboutAlone) {
+  Field field(20);
+  FramePlanner planner;
+  const auto asked = [&] {
+    const std::uint64_t before = planner.pairsAsked();
+    field.move(150, {0.05, 0, 0.02});
+    field.plan(planner);
+    return planner.pairsAsked() - before;
+  };
+  EXPECT_GE(asked(), field.objects.size());
+  EXPECT_LE(asked(), 10u);
+  // In the third frame in which something moved, all are asked about the receivers in view.
+  EXPECT_GE(asked(), field.objects.size());
+  for (int frame = 0; frame < 5; ++frame) EXPECT_LE(asked(), 10u);
+  const std::uint64_t before = planner.pairsAsked();
+  field.camera.eyeWorld.x += 0.1;
+  field.plan(planner);
+  EXPECT_EQ(planner.pairsAsked(), before);
+}
+
+// What is kept between frames never changes an answer.
+TEST(FramePlanner, KeptAnswersAreThoseOfAFreshPlanner) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Field field(5);
+  FramePlanner kept;
+  for (int frame = 0; frame < 300; ++frame) {
+    const auto object = static_cast<std::size_t>(random() % field.objects.size());
+    const double far = frame % 7 == 0 ? 30.0 : 1.0;
+    if (frame % 3 != 0) field.move(object, far * glm::dvec3(unit(random), unit(random), unit(random)));
+    if (frame % 11 == 0) field.camera.eyeWorld += 4.0 * glm::dvec3(unit(random), 0.0, unit(random));
+    if (frame % 29 == 0) {
+      field.light.centerWorld.x += unit(random);
+      ++field.lightRevision;
+    }
+    if (frame % 37 == 0) field.objects.erase(field.objects.begin() + static_cast<std::ptrdiff_t>(object));
+    FramePlanner fresh;
+    const FramePlan expected = field.plan(fresh), plan = field.plan(kept);
+    EXPECT_EQ(plan.receivers, expected.receivers) << frame;
+    EXPECT_EQ(plan.sceneRevision, expected.sceneRevision) << frame;
+    // A moving scene may drop casters whose shadows no one sees, and never draws one that shadows nothing
+    // unless it did before.
+    for (const Skip& skip : expected.skips) {
+      if (skip.subject != Skip::Subject::caster) continue;
+      EXPECT_TRUE(hasSkip(plan, skipName(skip), skip.reason) ||
+                  hasSkip(plan, skipName(skip), SkipReason::nothingBeyond))
+          << frame << " " << skipName(skip);
+    }
+    for (const std::uint32_t caster : expected.lights[0].casters) {
+      const bool drawn = std::ranges::binary_search(plan.lights[0].casters, caster);
+      const Skip dropped{.subject = Skip::Subject::caster, .id = field.objects[caster].id};
+      EXPECT_TRUE(drawn || hasSkip(plan, skipName(dropped), SkipReason::shadowOutOfView)) << frame;
+    }
+  }
+}
+
+TEST(FramePlanner, ALightKeepsItsViewWhenOthersGo) {
+  World world;
+  world.lookAtAll();
+  world.lights.push_back(world.lights[0]);
+  world.lights[1].centerWorld.x = 4.0;
+  world.lightRevisions = {1, 2};
+  FramePlanner planner;
+  const FramePlan both = world.plan(planner);
+  world.lights.erase(world.lights.begin());
+  world.lightRevisions.erase(world.lightRevisions.begin());
+  const std::uint32_t number = 1;
+  const FramePlan one = planner.plan({.objects = world.objects,
+                                      .camera = &world.camera,
+                                      .lights = world.lights,
+                                      .lightRevisions = world.lightRevisions,
+                                      .lightNumbers = {&number, 1}});
+  EXPECT_EQ(one.lights[0].contentKey, both.lights[1].contentKey);
+  EXPECT_TRUE(hasSkip(one, "light 1", SkipReason::unchanged));
 }
 
 TEST(FramePlanner, SkipCodesAreDistinct) {

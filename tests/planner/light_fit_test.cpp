@@ -142,7 +142,7 @@ TEST(LightFit, SubTexelMovesKeepTheGrid) {
 TEST(LightFit, CastersBehindTheLightAreEmpty) {
   const scene::AreaLight light = lightAbove({0, 5, 0}, 1.0);
   EXPECT_TRUE(fitLight(light, boxPoints({0, 9, 0}, {1, 1, 1}), {}).empty);
-  EXPECT_TRUE(fitLight(light, {}, {}).empty);
+  EXPECT_TRUE(fitLight(light, Points{}, {}).empty);
 }
 
 TEST(LightFit, CasterThroughTheLightPlaneIsCutAtNearAndAtTheLargestTangent) {
@@ -193,22 +193,58 @@ TEST(LightFit, PointLightHasAStableFrame) {
 
 TEST(LightFit, CastersNearerThanTheLightIsWideAreFound) {
   const scene::AreaLight light{.halfU = {1, 0, 0}, .halfV = {0, -1, 0}, .emission = {0, 0, -1}};
-  const LightFitOptions options{.pointsAreTriangles = true};
+  const glm::dmat4 worldFromObject(1.0);
+  const auto near = [&](const scene::AreaLight& of, const Points& triangles) {
+    scene::TriangleMesh mesh;
+    for (const glm::dvec3& point : triangles) {
+      mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+      mesh.positions.emplace_back(point);
+    }
+    const CasterShape caster{.pointsWorld = triangles, .mesh = &mesh, .worldFromObject = &worldFromObject};
+    return fitLight(of, {&caster, 1}, {}).casterNearLight;
+  };
   const auto sheet = [](double x, double depth) {
     return Points{{x, -50, -depth}, {x, 50, -depth}, {x + 50, 0, -depth}};
   };
   // Two wide: a sheet whose vertices all lie far away passes below it at this depth.
-  EXPECT_TRUE(fitLight(light, sheet(-10, 1.9), options).casterNearLight);
-  EXPECT_FALSE(fitLight(light, sheet(-10, 2.1), options).casterNearLight);
+  EXPECT_TRUE(near(light, sheet(-10, 1.9)));
+  EXPECT_FALSE(near(light, sheet(-10, 2.1)));
   // Beside it, from one half side and the light's width on.
-  EXPECT_TRUE(fitLight(light, sheet(2.9, 0.5), options).casterNearLight);
-  EXPECT_FALSE(fitLight(light, sheet(3.1, 0.5), options).casterNearLight);
+  EXPECT_TRUE(near(light, sheet(2.9, 0.5)));
+  EXPECT_FALSE(near(light, sheet(3.1, 0.5)));
   // In its plane and behind it nothing casts.
   Points plane = sheet(-10, 0.0);
   plane.insert(plane.end(), {{0, 0, -9}, {1, 0, -9}, {0, 1, -9}});
-  EXPECT_FALSE(fitLight(light, plane, options).casterNearLight);
+  EXPECT_FALSE(near(light, plane));
   const scene::AreaLight point{.emission = {0, 0, -1}};
-  EXPECT_FALSE(fitLight(point, sheet(-10, 1e-3), options).casterNearLight);
+  EXPECT_FALSE(near(point, sheet(-10, 1e-3)));
+}
+
+// Extents are kept: what stands still, under a light that does, is not looked at again.
+TEST(LightFit, OnlyWhatMovedIsMeasured) {
+  std::vector<Points> points;
+  for (int i = 0; i < 20; ++i) points.push_back(boxPoints({i, 0, 0}, {0.4, 0.4, 0.4}));
+  std::vector<CasterShape> casters;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    casters.push_back({.id = i + 1, .revision = i + 1, .pointsWorld = points[i]});
+  const scene::AreaLight light = lightAbove({9, 12, 0}, 1.0);
+  LightFitter fitter;
+  fitter.fit(light, casters, {});
+  EXPECT_EQ(fitter.castersMeasured(), 20u);
+  points[7] = boxPoints({7, 0.5, 30}, {0.4, 0.4, 0.4});
+  casters[7].pointsWorld = points[7];
+  casters[7].revision = 100;
+  const LightFit moved = fitter.fit(light, casters, {});
+  EXPECT_EQ(fitter.castersMeasured(), 21u);
+  const LightFit fresh = fitLight(light, casters, {});
+  EXPECT_EQ(moved.tangentLow, fresh.tangentLow);
+  EXPECT_EQ(moved.tangentHigh, fresh.tangentHigh);
+  EXPECT_EQ(moved.nearestCaster, fresh.nearestCaster);
+  casters.erase(casters.begin() + 3);
+  fitter.fit(light, casters, {});
+  EXPECT_EQ(fitter.castersMeasured(), 21u) << "one left, the others stayed";
+  fitter.fit(lightAbove({9, 12.1, 0}, 1.0), casters, {});
+  EXPECT_EQ(fitter.castersMeasured(), 21u + 19u) << "the light moved";
 }
 
 TEST(LightFit, OnePointStillMakesAView) {

@@ -17,6 +17,12 @@ scene::AreaLight sunAt(double distance) {
   return *light;
 }
 
+scene::Bounds boundsOf(const std::vector<glm::dvec3>& points) {
+  scene::Bounds bounds;
+  for (const glm::dvec3& point : points) bounds.include(point);
+  return bounds;
+}
+
 // Rays from a receiver through the same share of the light keep their direction, to a hundredth of the
 // light's own width or better.
 TEST(LightReach, DirectionsStay) {
@@ -29,7 +35,7 @@ TEST(LightReach, DirectionsStay) {
       std::vector<glm::dvec3> casters;
       for (int i = 0; i < 9; ++i)
         casters.push_back(place + size * glm::dvec3(share(random), share(random), share(random)));
-      const scene::AreaLight nearer = lightWithinReach(sun, casters);
+      const scene::AreaLight nearer = lightWithinReach(sun, boundsOf(casters));
       for (int i = 0; i < 50; ++i) {
         const glm::dvec3 receiver = casters[static_cast<std::size_t>(i % 9)];
         const double a = share(random), b = share(random);
@@ -48,12 +54,13 @@ TEST(LightReach, DirectionsStay) {
 TEST(LightReach, NearLightsAndSmallMovesChangeNothing) {
   const std::vector<glm::dvec3> casters = {{-1, 0, -1}, {1, 0, 1}, {0, 2, 0}};
   const scene::AreaLight lamp = sunAt(12.0);
-  EXPECT_EQ(lightWithinReach(lamp, casters).centerWorld, lamp.centerWorld);
-  EXPECT_EQ(lightWithinReach(lamp, casters).halfU, lamp.halfU);
+  EXPECT_EQ(lightWithinReach(lamp, boundsOf(casters)).centerWorld, lamp.centerWorld);
+  EXPECT_EQ(lightWithinReach(lamp, boundsOf(casters)).halfU, lamp.halfU);
   const scene::AreaLight sun = sunAt(1e7);
   std::vector<glm::dvec3> moved = casters;
   for (glm::dvec3& point : moved) point += glm::dvec3(0.1, 0.02, -0.1);
-  EXPECT_EQ(lightWithinReach(sun, casters).centerWorld, lightWithinReach(sun, moved).centerWorld);
+  EXPECT_EQ(lightWithinReach(sun, boundsOf(casters)).centerWorld,
+            lightWithinReach(sun, boundsOf(moved)).centerWorld);
   EXPECT_EQ(lightWithinReach(sun, {}).centerWorld, sun.centerWorld);
 }
 

@@ -117,7 +117,7 @@ class World {
 
 std::optional<SkipReason> reasonFor(const FramePlan& plan, std::uint32_t object) {
   for (const Skip& skip : plan.skips) {
-    if (skip.what == "caster " + std::to_string(object + 1)) return skip.reason;
+    if (skipName(skip) == "caster " + std::to_string(object + 1)) return skip.reason;
   }
   return std::nullopt;
 }

@@ -7,6 +7,7 @@
 #include <glm/ext/matrix_transform.hpp>
 
 #include "base/keys.hpp"
+#include "scene/convex_hull.hpp"
 
 namespace halfshadow::test {
 namespace {
@@ -71,7 +72,7 @@ techniques::DrawItem PlanRig::itemOf(const Object& object) const {
 }
 
 const techniques::LightScene& PlanRig::prepare(int channel) {
-  casters_.clear(), receivers_.clear(), shadowlessReceivers_.clear(), casterPointsWorld_.clear();
+  casters_.clear(), receivers_.clear(), shadowlessReceivers_.clear(), casterShapes_.clear();
   std::uint64_t contentKey = 1, sceneKey = 1;
   for (const auto& object : objects_) {
     const techniques::DrawItem item = itemOf(*object);
@@ -83,13 +84,17 @@ const techniques::LightScene& PlanRig::prepare(int channel) {
     }
     casters_.push_back(item);
     contentKey = combineKeys(contentKey, item.revision);
-    for (const std::uint32_t index : item.sourceMesh->indices) {
-      casterPointsWorld_.emplace_back(item.worldFromObject *
-                                      glm::dvec4(glm::dvec3(item.sourceMesh->positions[index]), 1.0));
-    }
+    object->pointsWorld.clear();
+    for (const glm::dvec3& point : scene::enclosingPoints(*item.sourceMesh).points)
+      object->pointsWorld.emplace_back(item.worldFromObject * glm::dvec4(point, 1.0));
+    casterShapes_.push_back({.id = object->id,
+                             .revision = object->revision,
+                             .pointsWorld = object->pointsWorld,
+                             .mesh = item.sourceMesh,
+                             .worldFromObject = &object->source.worldFromObject});
   }
-  const planner::LightFit fit = planner::fitLight(
-      light_, casterPointsWorld_, {.mapSize = settings_.integer("map_size"), .pointsAreTriangles = true});
+  const planner::LightFit fit =
+      planner::fitLight(light_, casterShapes_, {.mapSize = settings_.integer("map_size")});
   scene_.reset(new techniques::LightScene{
       .capabilities = capabilities_,
       .settings = settings_,
@@ -98,7 +103,7 @@ const techniques::LightScene& PlanRig::prepare(int channel) {
       .name = "light " + std::to_string(channel),
       .light = light_,
       .center = {.fit = fit, .casters = casters_, .contentKey = contentKey, .sceneKey = sceneKey},
-      .casterPointsWorld = casterPointsWorld_,
+      .casterShapes = casterShapes_,
       .receiverFarDistance = kReceiversBehindCasters * fit.farthestCaster,
       .casters = casters_,
       .groups = groups_,

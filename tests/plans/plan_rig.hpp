@@ -43,6 +43,7 @@ class PlanRig {
     scene::SceneObject source;
     scene::CasterGeometry geometry;
     std::uint64_t revision = 0;
+    std::vector<glm::dvec3> pointsWorld;
   };
   techniques::DrawItem itemOf(const Object& object) const;
 
@@ -52,7 +53,7 @@ class PlanRig {
   scene::AreaLight light_;
   techniques::View screen_;
   std::uint64_t lastRevision_ = 0;
-  std::vector<glm::dvec3> casterPointsWorld_;
+  std::vector<planner::CasterShape> casterShapes_;
   std::vector<techniques::DrawItem> casters_, receivers_, shadowlessReceivers_;
   scene::CasterGroups groups_;
   std::unique_ptr<techniques::LightScene> scene_;

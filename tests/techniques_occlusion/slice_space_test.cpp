@@ -29,6 +29,12 @@ scene::AreaLight lightAt(const glm::dvec3& center, double sizeU, double sizeV) {
   return *light;
 }
 
+Result<SliceSpace> spaceOf(const planner::LightFit& fit, const std::vector<glm::dvec3>& points,
+                           const SliceOptions& options, const planner::SubLights* split = nullptr) {
+  const planner::CasterShape caster{.pointsWorld = points};
+  return makeSliceSpace(fit, {&caster, 1}, options, split);
+}
+
 struct Case {
   SliceProjection projection;
   SliceCenter center;
@@ -52,8 +58,7 @@ TEST(SliceSpace, FrustumSectionsOfReceiversAreThoseOfTheGeometry) {
   std::mt19937 random(2);
   std::uniform_real_distribution<double> lateral(-2.0, 2.0);
   for (const Case& tested : kCases) {
-    const auto space =
-        makeSliceSpace(fit, points, {.projection = tested.projection, .center = tested.center});
+    const auto space = spaceOf(fit, points, {.projection = tested.projection, .center = tested.center});
     ASSERT_TRUE(space.ok());
     for (int i = 0; i < 200; ++i) {
       const glm::dvec3 receiver(lateral(random), -1.0, lateral(random));
@@ -91,8 +96,8 @@ TEST(SliceSpace, EveryCasterLiesInsideTheMapAndInASlice) {
   const planner::LightFit fit = planner::fitLight(lightAt({3, 12, 2}, 2.0, 2.0), points, {});
   for (const Case& tested : kCases) {
     for (const int slices : {4, 7, 16}) {
-      const auto space = makeSliceSpace(
-          fit, points, {.slices = slices, .projection = tested.projection, .center = tested.center});
+      const auto space =
+          spaceOf(fit, points, {.slices = slices, .projection = tested.projection, .center = tested.center});
       ASSERT_TRUE(space.ok());
       // Three texels of border; half a texel of the triangles' own extent may reach into it.
       const double border = 2.5 / space->mapSize.x;
@@ -113,7 +118,7 @@ TEST(SliceSpace, EveryCasterLiesInsideTheMapAndInASlice) {
 TEST(SliceSpace, PyramidThroughTheLightsOutlineJustHoldsTheCasters) {
   const auto points = casterPoints({-1.5, 0.2, -1.2}, {1.4, 3.1, 1.0}, 40, 4);
   const planner::LightFit fit = planner::fitLight(lightAt({0, 12, 0}, 1.0, 1.0), points, {});
-  const auto space = makeSliceSpace(fit, points, {.center = SliceCenter::behind});
+  const auto space = spaceOf(fit, points, {.center = SliceCenter::behind});
   ASSERT_TRUE(space.ok());
   const double tangent = fit.halfSize.x / space->offsetDistance;
   double widest = 0.0;
@@ -129,14 +134,22 @@ TEST(SliceSpace, SlicesWithoutCastersAreDroppedAndNamed) {
   auto points = casterPoints({-1, 5, -1}, {1, 5.3, 1}, 20, 5);
   const auto low = casterPoints({-1, 0, -1}, {1, 0.3, 1}, 20, 6);
   points.insert(points.end(), low.begin(), low.end());
+  scene::TriangleMesh mesh;  // of two parts, with nothing between them
+  for (const glm::dvec3& point : points) {
+    mesh.indices.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
+    mesh.positions.emplace_back(point);
+  }
+  const glm::dmat4 worldFromObject(1.0);
+  const planner::CasterShape caster{
+      .pointsWorld = points, .mesh = &mesh, .worldFromObject = &worldFromObject};
   const planner::LightFit fit = planner::fitLight(lightAt({0, 12, 0.01}, 1.0, 1.0), points, {});
-  const auto space = makeSliceSpace(fit, points, {.slices = 8});
+  const auto space = makeSliceSpace(fit, {&caster, 1}, {.slices = 8});
   ASSERT_TRUE(space.ok());
   // Casters fill 0.3 of 5.3 units at each end; a slice is 0.66 thick.
   EXPECT_EQ(space->slices.size(), 2u);
   EXPECT_EQ(space->emptySlices, (std::vector<int>{1, 2, 3, 4, 5, 6}));
   // Closing leaks projects each occupied slice on the next, which is then needed.
-  const auto closing = makeSliceSpace(fit, points, {.slices = 8, .successors = SliceSuccessors::kept});
+  const auto closing = makeSliceSpace(fit, {&caster, 1}, {.slices = 8, .successors = SliceSuccessors::kept});
   ASSERT_TRUE(closing.ok());
   ASSERT_EQ(closing->slices.size(), 3u);
   EXPECT_EQ(closing->slices[1].casterLow, closing->slices[0].low);
@@ -148,14 +161,13 @@ TEST(SliceSpace, RefusesWhatItCannotSliceAndSaysWhy) {
   const planner::LightFit fit = planner::fitLight(lightAt({0, 12, 0.01}, 1.0, 1.0), points, {});
   for (const SliceOptions& options : {SliceOptions{.slices = 3}, SliceOptions{.slices = 17},
                                       SliceOptions{.mapSize = 32}, SliceOptions{.mapSize = 2048}}) {
-    const auto space = makeSliceSpace(fit, points, options);
+    const auto space = spaceOf(fit, points, options);
     ASSERT_FALSE(space.ok());
     EXPECT_EQ(space.error().code, ErrorCode::invalidArgument);
     EXPECT_NE(space.error().message.find("is outside"), std::string::npos);
   }
   const auto above = casterPoints({-1, 20, -1}, {1, 21, 1}, 4, 8);
-  const auto behind =
-      makeSliceSpace(planner::fitLight(lightAt({0, 12, 0.01}, 1.0, 1.0), above, {}), above, {});
+  const auto behind = spaceOf(planner::fitLight(lightAt({0, 12, 0.01}, 1.0, 1.0), above, {}), above, {});
   ASSERT_FALSE(behind.ok());
   EXPECT_NE(behind.error().message.find("no caster"), std::string::npos);
 }
@@ -172,8 +184,7 @@ TEST(SliceSpace, DegenerateLightsAndCastersGiveFiniteSpaces) {
     for (const auto& points : {block, flat, around, point}) {
       for (const Case& tested : kCases) {
         const planner::LightFit fit = planner::fitLight(lightAt({0, 12, 0.01}, size.u, size.v), points, {});
-        const auto space =
-            makeSliceSpace(fit, points, {.projection = tested.projection, .center = tested.center});
+        const auto space = spaceOf(fit, points, {.projection = tested.projection, .center = tested.center});
         ASSERT_TRUE(space.ok());
         for (int column = 0; column < 4; ++column) {
           EXPECT_FALSE(glm::any(glm::isnan(space->mapFromWorld[column])) ||
@@ -200,7 +211,7 @@ TEST(SliceSpace, SubLightsSeeAStepBesideTheCentre) {
     for (const planner::SubLightGrid grid : {planner::SubLightGrid{2, 2}, planner::SubLightGrid{3, 2}}) {
       for (const bool powersOfTwo : {false, true}) {
         const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
-        const auto space = makeSliceSpace(fit, points, {.grid = grid, .powersOfTwo = powersOfTwo}, &split);
+        const auto space = spaceOf(fit, points, {.grid = grid, .powersOfTwo = powersOfTwo}, &split);
         ASSERT_TRUE(space.ok());
         ASSERT_EQ(space->views.size(), 1u * grid.count());
         EXPECT_LE(space->tiles.x * space->mapSize.x, space->atlasSize);
@@ -235,7 +246,7 @@ TEST(SliceSpace, TilesAreAsWideAsTheirContent) {
   const auto tilesFor = [&](const glm::dvec3& half) {
     const std::vector<glm::dvec3> points = casterPoints(-half, half, 40, 3);
     const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
-    return makeSliceSpace(planner::fitLight(light, points, {}), points, {.grid = grid}, &split)->tiles;
+    return spaceOf(planner::fitLight(light, points, {}), points, {.grid = grid}, &split)->tiles;
   };
   EXPECT_EQ(tilesFor({3, 1, 3}), glm::ivec2(2, 2));
   const glm::ivec2 alongX = tilesFor({6, 1, 0.2}), alongZ = tilesFor({0.2, 1, 6});

@@ -35,7 +35,8 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
       farthest = std::max(farthest, glm::dot(points_.back() - light_.centerWorld, light_.emission));
     }
   }
-  const planner::LightFit fit = planner::fitLight(light_, points_, {.mapSize = mapSize});
+  shape_ = {.pointsWorld = points_};
+  const planner::LightFit fit = planner::fitLight(light_, {&shape_, 1}, {.mapSize = mapSize});
   scene_ = std::make_unique<techniques::LightScene>(
       techniques::LightScene{.capabilities = context.capabilities(),
                              .settings = settings_,
@@ -43,7 +44,7 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
                              .name = "light 0",
                              .light = light_,
                              .center = {.fit = fit, .casters = casters_, .contentKey = 1, .sceneKey = 1},
-                             .casterPointsWorld = points_,
+                             .casterShapes = {&shape_, 1},
                              .receiverFarDistance = 1.3 * farthest,
                              .casters = casters_,
                              .groups = groups_,

@@ -39,6 +39,7 @@ class LightRig {
   std::vector<techniques::GpuMesh> meshes_;
   std::vector<techniques::DrawItem> casters_;
   std::vector<glm::dvec3> points_;
+  planner::CasterShape shape_;  ///< of all of them
   scene::CasterGroups groups_;
   gl::Encoder encoder_;
   std::unique_ptr<framegraph::Executor> executor_;

@@ -65,6 +65,9 @@ class NearCaster : public SharedEngineTest {
   }
 };
 
+/// Of the scene without a post by one map, of all three techniques.
+constexpr double kOneMapAlone = 0.033;
+
 const char* const kSearching[] = {"pcss", "pcss-mip", "pcf-quantized"};
 
 TEST_F(NearCaster, APostBesideTheLightLeavesOtherShadowsAlone) {
@@ -75,7 +78,10 @@ TEST_F(NearCaster, APostBesideTheLightLeavesOtherShadowsAlone) {
       const Judged judged = judge(scene({post}), technique);
       std::printf("%-14s post of %4.1f: %.4f, alone %.4f%s\n", technique, height, judged.rmse, alone,
                   judged.stoodIn ? ", sampled takes the light" : "");
-      EXPECT_LE(judged.rmse, 1.3 * alone) << technique << ", height " << height;
+      // 64 hard shadows, of a penumbra as wide as the picture: as good as one map that sees all from the
+      // centre.
+      const double most = judged.stoodIn ? kOneMapAlone : alone;
+      EXPECT_LE(judged.rmse, 1.3 * most) << technique << ", height " << height;
       // Well below the light its penumbra is as wide as others'.
       if (height <= 6.0) {
         EXPECT_FALSE(judged.stoodIn) << technique << ", height " << height;

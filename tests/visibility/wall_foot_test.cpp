@@ -92,8 +92,10 @@ TEST(ReceiverReach, IsTheSameHoweverTheSceneIsTurned) {
     turned.halfV = glm::dmat3(turn) * light->halfV;
     turned.emission = glm::dmat3(turn) * light->emission;
     const glm::dmat4 worldFromGround = turn * ground.worldFromObject;
-    const api::Receiver receiver{ground.mesh.get(), worldFromGround,
-                                 scene::transformed(worldFromGround, scene::boundsOf(*ground.mesh))};
+    const planner::PlannedObject receiver{
+        .boundsWorld = scene::transformed(worldFromGround, scene::boundsOf(*ground.mesh)),
+        .mesh = ground.mesh.get(),
+        .worldFromObject = worldFromGround};
     return api::receiverFarDistance(planner::fitLight(turned, points, {}), {&receiver, 1});
   };
   const double still = distance(glm::dmat4(1.0));

@@ -31,7 +31,10 @@ class Engine {
   Outcome setVertices(ObjectId id, const MeshDesc& mesh);
   Outcome removeObject(ObjectId id);
 
-  /// Up to kMaxLights lights. Errors: invalidLight, invalidArgument.
+  /// Up to kMaxLights lights. One with the same values as a light before is that light, wherever it stands in
+  /// the list, and nothing of it is remade; one with other values is the light that stood in its place,
+  /// moved, or else a new one. Reports name a light by the lowest number that was free when it was new:
+  /// "light 0". Errors: invalidLight, invalidArgument.
   Outcome setLights(const LightDesc* lights, std::size_t count);
   /// Errors: unknownTechnique, capabilityMissing (naming the capability).
   Outcome setTechnique(const char* id);
@@ -41,6 +44,15 @@ class Engine {
   /// Renders one frame. Errors: invalidCamera, invalidArgument (size 0 or above the limit), emptyScene,
   /// shaderFailed, contextLost, driverFault, outOfMemory. On error nothing was drawn to the target, or it
   /// holds unshadowed receivers; never garbage.
+  ///
+  /// When nothing has changed since the last frame, neither `desc` nor anything that was set, the engine's
+  /// own texture still holds the picture: no OpenGL call is made. A framebuffer of the host's may not hold it
+  /// any more, so the receivers are drawn into it again, with all else as it is. With Timing::perPass
+  /// everything that a moved camera would redraw is drawn.
+  Outcome render(const RenderDesc& desc);
+  /// What the last frame did, put together when it is asked for; empty after an error.
+  FrameReport report();
+  /// Both.
   Outcome render(const RenderDesc& desc, FrameReport& report);
 
   /// The last frame rendered with TargetDesc::Kind::engine: its texture (0 if none), and its pixels, RGBA,

@@ -139,7 +139,7 @@ struct SkipRecord {
   const char* why = "";
 };
 
-/// What a frame did. Pointers live until the engine's next call.
+/// What a frame did. Pointers live until the next frame or report.
 struct FrameReport {
   const PassRecord* passes = nullptr;
   std::size_t passCount = 0;

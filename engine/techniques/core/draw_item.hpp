@@ -34,6 +34,7 @@ struct DrawItem {
   const gl::Texture* baseColorTexture = nullptr;
   scene::Bounds boundsWorld;
   bool closed = false;       ///< no boundary edges: from outside only front faces are seen
+  float solidity = 1.0f;     ///< of casters, see scene::solidity()
   bool mirrored = false;     ///< the transform turns the winding round
   bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
   const scene::TriangleMesh* sourceMesh = nullptr;

@@ -47,9 +47,9 @@ struct LightScene {
   int channel = 0;   ///< its place among the frame's lights, of images that hold one in each channel
   std::string name;  ///< "light 0": what names of images and passes begin with
   const scene::AreaLight& light;
-  LightView center;                               ///< from its centre, of all its casters
-  const planner::SubLights* subLights = nullptr;  ///< what maps see it through; null: it is seen whole
-  std::span<const glm::dvec3> casterPointsWorld;  ///< what the views enclose, three a triangle
+  LightView center;                                    ///< from its centre, of all its casters
+  const planner::SubLights* subLights = nullptr;       ///< what maps see it through; null: it is seen whole
+  std::span<const planner::CasterShape> casterShapes;  ///< of `casters`: what the views enclose
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< of all views
   scene::CasterGroups& groups;        ///< of `casters`, kept between frames: see placedCasters()

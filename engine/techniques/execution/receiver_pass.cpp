@@ -66,13 +66,14 @@ void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading
 }
 
 void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
-                       const View& view, const DrawItem& item, bool facets, const ShadingInputs* inputs) {
+                       const View& view, const DrawItem& item, bool facets, const ShadingInputs* inputs,
+                       device::UniformList& ofItem) {
   program.set(gl, "u_clipFromObject", glm::mat4(view.clipFromWorld * item.worldFromObject));
   setMapUniforms(gl, program, shading, item.worldFromObject, facets);
   if (shading.itemUniforms) {
-    device::UniformList uniforms;
-    shading.itemUniforms(item, uniforms);
-    program.set(gl, uniforms);
+    ofItem.clear();
+    shading.itemUniforms(item, ofItem);
+    program.set(gl, ofItem);
   }
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
@@ -183,6 +184,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   // Steps of a depth buffer: too few to bring anything forward that is not in the same place.
   constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;
+  device::UniformList ofItem;
   const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
     if (target.depthsApart) {
       state.polygonOffset = glm::vec2(0.0f, static_cast<float>((&item - items.data()) % kMostSteps));
@@ -199,7 +201,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
       const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
       encoder.bindTextures({&binding, 1});
     }
-    setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs);
+    setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs, ofItem);
     state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state,
                     kind.facets ? GpuMesh::Streams::facet

@@ -199,11 +199,11 @@ class OcclusionPlanner final : public LightPlanner {
   }
 
  private:
-  /// Kept from the last frame: finding the slices that hold casters looks at every vertex.
+  /// Kept from the last frame: finding the slices that hold casters looks at triangles.
   Status findSpace(const LightScene& scene, const SliceOptions& options) {
     if (space_ && contentKey_ == scene.contentKey && options_ == options) return {};
     space_.reset();
-    auto made = makeSliceSpace(scene.fit(), scene.casterPointsWorld, options, scene.subLights);
+    auto made = makeSliceSpace(scene.fit(), scene.casterShapes, options, scene.subLights);
     if (!made) return made.error();
     space_ = std::move(made).value();
     contentKey_ = scene.contentKey;

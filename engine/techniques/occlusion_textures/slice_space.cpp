@@ -95,30 +95,92 @@ std::vector<glm::dvec2> viewCenters(const planner::SubLights* split) {
   return centers;
 }
 
-/// Sorts slices into those that triangles (three points each) touch and the others.
-void sortSlices(const std::vector<double>& borders, const std::vector<double>& pointSlices,
-                SliceSuccessors successors, SliceSpace& space) {
-  std::vector<bool> occupied(borders.size() - 1, false);
-  for (std::size_t i = 0; i + 2 < pointSlices.size(); i += 3) {
-    const auto [low, high] = std::minmax({pointSlices[i], pointSlices[i + 1], pointSlices[i + 2]});
-    for (std::size_t k = 0; k < occupied.size(); ++k) {
-      if (low <= borders[k + 1] && high >= borders[k]) occupied[k] = true;
-    }
-  }
-  const bool closing = successors == SliceSuccessors::kept;
-  for (std::size_t k = 0; k < occupied.size(); ++k) {
-    const bool follows = closing && k > 0 && occupied[k - 1];
-    if (occupied[k] || follows) {
-      space.slices.push_back(
-          {.low = borders[k], .high = borders[k + 1], .casterLow = borders[follows ? k - 1 : k]});
-    } else {
-      space.emptySlices.push_back(static_cast<int>(k));
-    }
-  }
+/// Of the caster in light space, none before the near distance. Points that are moved there no longer hold
+/// the others: then all vertices are taken.
+void appendPoints(const planner::LightFit& fit, const planner::CasterShape& caster,
+                  std::vector<glm::dvec3>& points) {
+  const auto add = [&](const glm::dmat4& lightFromPoint, const glm::dvec3& point) {
+    glm::dvec3 p = glm::dvec3(lightFromPoint * glm::dvec4(point, 1.0));
+    const bool moved = p.z < fit.nearDistance;
+    p.z = std::max(p.z, fit.nearDistance);
+    points.push_back(p);
+    return moved;
+  };
+  bool anyMoved = false;
+  for (const glm::dvec3& world : caster.pointsWorld) anyMoved = add(fit.lightFromWorld, world) || anyMoved;
+  if (!anyMoved || caster.mesh == nullptr) return;
+  const glm::dmat4 lightFromObject = fit.lightFromWorld * *caster.worldFromObject;
+  for (const std::uint32_t vertex : caster.mesh->indices)
+    add(lightFromObject, glm::dvec3(caster.mesh->positions[vertex]));
 }
+
+/// Which slices casters touch, by their triangles: one that the caster's box reaches may lie between its
+/// parts.
+class OccupiedSlices {
+ public:
+  OccupiedSlices(const planner::LightFit& fit, const std::vector<double>& borders)
+      : fit_(fit), borders_(borders), occupied_(borders.size() - 1, false) {}
+
+  /// `sliceOf`: place in slice units at a distance from the light's plane.
+  void add(const planner::CasterShape& caster, auto sliceOf) {
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const glm::dvec3& world : caster.pointsWorld) {
+      const double at = sliceOf(distanceOf(glm::dvec4(world, 1.0), fit_.lightFromWorld));
+      low = std::min(low, at), high = std::max(high, at);
+    }
+    if (caster.mesh == nullptr) return mark(low, high);
+    const glm::dmat4 lightFromObject = fit_.lightFromWorld * *caster.worldFromObject;
+    const scene::TriangleMesh& mesh = *caster.mesh;
+    for (std::size_t i = 0; i + 2 < mesh.indices.size() && !allMarked(low, high); i += 3) {
+      double from = std::numeric_limits<double>::infinity(), to = -from;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const glm::dvec3 position(mesh.positions[mesh.indices[i + k]]);
+        const double at = sliceOf(distanceOf(glm::dvec4(position, 1.0), lightFromObject));
+        from = std::min(from, at), to = std::max(to, at);
+      }
+      mark(from, to);
+    }
+  }
+
+  void sort(SliceSuccessors successors, SliceSpace& space) const {
+    const bool closing = successors == SliceSuccessors::kept;
+    for (std::size_t k = 0; k < occupied_.size(); ++k) {
+      const bool follows = closing && k > 0 && occupied_[k - 1];
+      if (occupied_[k] || follows) {
+        space.slices.push_back(
+            {.low = borders_[k], .high = borders_[k + 1], .casterLow = borders_[follows ? k - 1 : k]});
+      } else {
+        space.emptySlices.push_back(static_cast<int>(k));
+      }
+    }
+  }
+
+ private:
+  double distanceOf(const glm::dvec4& point, const glm::dmat4& lightFromPoint) const {
+    return std::max(glm::dvec3(lightFromPoint * point).z, fit_.nearDistance);
+  }
+  bool touches(std::size_t k, double low, double high) const {
+    return low <= borders_[k + 1] && high >= borders_[k];
+  }
+  void mark(double low, double high) {
+    for (std::size_t k = 0; k < occupied_.size(); ++k) {
+      if (touches(k, low, high)) occupied_[k] = true;
+    }
+  }
+  bool allMarked(double low, double high) const {
+    for (std::size_t k = 0; k < occupied_.size(); ++k) {
+      if (touches(k, low, high) && !occupied_[k]) return false;
+    }
+    return true;
+  }
+
+  const planner::LightFit& fit_;
+  const std::vector<double>& borders_;
+  std::vector<bool> occupied_;
+};
 }  // namespace
 
-Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
+Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const planner::CasterShape> casters,
                                   const SliceOptions& options, const planner::SubLights* split) {
   if (options.slices < 4 || options.slices > 16) {
     return Error{ErrorCode::invalidArgument, "occlusion-textures.slices=" + std::to_string(options.slices) +
@@ -130,14 +192,11 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   }
   const bool perspective = options.projection == SliceProjection::perspective;
   std::vector<glm::dvec3> points;
-  points.reserve(casterPointsWorld.size());
   Interval depth, lateral[2];
-  for (const glm::dvec3& world : casterPointsWorld) {
-    glm::dvec3 p = glm::dvec3(fit.lightFromWorld * glm::dvec4(world, 1.0));
-    p.z = std::max(p.z, fit.nearDistance);
+  for (const planner::CasterShape& caster : casters) appendPoints(fit, caster, points);
+  for (const glm::dvec3& p : points) {
     depth.include(p.z);
     for (int axis = 0; axis < 2; ++axis) lateral[axis].include(p[axis]);
-    points.push_back(p);
   }
   if (fit.empty || points.empty() || !(depth.high > 0.0)) {
     return Error{ErrorCode::invalidArgument,
@@ -282,14 +341,14 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
          .originWorld = glm::dvec3(worldFromLight * glm::dvec4(c, -space.offsetDistance, 1.0))});
   }
 
-  std::vector<double> borders, pointSlices;
+  std::vector<double> borders;
   for (int k = 0; k <= options.slices; ++k) {
     const double share = static_cast<double>(k) / options.slices;
     borders.push_back(sliceOf(near + share * (far - near)));
   }
-  pointSlices.reserve(points.size());
-  for (const glm::dvec3& p : points) pointSlices.push_back(sliceOf(p.z));
-  sortSlices(borders, pointSlices, options.successors, space);
+  OccupiedSlices occupied(fit, borders);
+  for (const planner::CasterShape& caster : casters) occupied.add(caster, sliceOf);
+  occupied.sort(options.successors, space);
   return space;
 }
 

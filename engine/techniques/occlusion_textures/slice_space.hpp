@@ -97,7 +97,7 @@ struct SliceSpace {
 /// `fit` is the frame's fit (its near distance cuts casters at the light's plane); `split` has options.grid,
 /// or is null where that is whole. Errors: invalidArgument (slices outside 4-16, map size outside 64-1024, no
 /// caster in front of the light).
-Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const glm::dvec3> casterPointsWorld,
+Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const planner::CasterShape> casters,
                                   const SliceOptions& options, const planner::SubLights* split = nullptr);
 
 }  // namespace halfshadow::techniques

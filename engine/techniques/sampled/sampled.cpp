@@ -75,7 +75,7 @@ class Sampled final : public Technique {
     const glm::dvec2 at = samplePoint(index);
     point.centerWorld += at.x * scene.light.halfU + at.y * scene.light.halfV;
     point.halfU = point.halfV = glm::dvec3(0.0);
-    return {.fit = planner::fitLight(point, scene.casterPointsWorld, {.mapSize = scene.fit().mapSize}),
+    return {.fit = planner::fitLight(point, scene.casterShapes, {.mapSize = scene.fit().mapSize}),
             .casters = scene.casters,
             .name = " sample " + std::to_string(index)};
   }

@@ -59,25 +59,25 @@ glm::dmat4 almostInfinitelyFar(const glm::dmat4& clipFromWorld) {
 LastReceivers lastReceivers(const LightScene& scene) {
   LastReceivers last;
   std::vector<SeenBox> seen;
-  std::unordered_set<const GpuMesh*> listed;
-  for (const DrawItem& caster : scene.casters) {
-    seen.push_back(seenBox(scene.fit(), caster.boundsWorld));
-    listed.insert(caster.mesh);
-  }
-  for (std::size_t i = 0; i < scene.casters.size(); ++i) {
+  for (const DrawItem& caster : scene.casters) seen.push_back(seenBox(scene.fit(), caster.boundsWorld));
+  std::vector<char> grounds(seen.size(), 0);
+  for (std::size_t i = 0; i < seen.size(); ++i) {
     const DrawItem& caster = scene.casters[i];
+    if (!caster.receives || !isLarge(seen[i], scene.fit())) continue;
     // From within, the faces that face the light are a roof, behind which others receive.
     const bool seenFromWithin =
         hiddenFaces(caster, scene.screen.eyeWorld, scene.screen.nearReach) == device::Cull::none;
-    const bool ground =
-        caster.receives && isLarge(seen[i], scene.fit()) &&
-        (!caster.closed || (!seenFromWithin && std::ranges::any_of(seen, [&](const SeenBox& other) {
-          return isBefore(other, seen[i]);
-        })));
-    (ground ? last.drawn : last.infinite).push_back(caster);
-    last.empty = last.empty && !ground;
+    grounds[i] = !caster.closed || (!seenFromWithin && std::ranges::any_of(seen, [&](const SeenBox& other) {
+      return isBefore(other, seen[i]);
+    }));
+    last.empty = last.empty && !grounds[i];
   }
   if (last.empty) return last;
+  std::unordered_set<const GpuMesh*> listed;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    (grounds[i] ? last.drawn : last.infinite).push_back(scene.casters[i]);
+    listed.insert(scene.casters[i].mesh);
+  }
   const auto add = [&](const DrawItem& item) {
     if (listed.insert(item.mesh).second) last.drawn.push_back(item);
   };

@@ -32,7 +32,7 @@ void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
       glm::abs(stepU) * (0.5 * (split.grid.alongU - 1)) + glm::abs(stepV) * (0.5 * (split.grid.alongV - 1));
   shading.uniforms.set("u_subLightStep", glm::vec4(stepU, stepV));
   shading.uniforms.set("u_subLights",
-                       glm::vec4((1.0 - space.nearDistance / split.alignedDistance) * space.depthUnit,
+                       glm::vec4((1.0 - space.nearDistance / split.shared.alignedDistance) * space.depthUnit,
                                  std::max(spread.x, spread.y), 1.0 / depth.atlasSize, depth.tilesPerSide()));
   const glm::dvec2 whole = glm::max(split.shared.halfSize, glm::dvec2(1e-300));
   shading.uniforms.set("u_subLightShare", glm::vec4(split.halfSize / whole, 0.0, 0.0));
@@ -46,7 +46,7 @@ void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShadin
   };
   shading.uniforms.set("u_lightSides", glm::vec4(side(scene.light.halfU), side(scene.light.halfV)));
   shading.itemUniforms = [](const DrawItem& item, device::UniformList& uniforms) {
-    uniforms.set("u_receiver", glm::vec4(item.casts && item.closed ? 1.0f : 0.0f, 0, 0, 0));
+    uniforms.set("u_receiver", glm::vec4(item.casts ? item.solidity : 0.0f, 0, 0, 0));
   };
 }
 

@@ -93,26 +93,39 @@ bool CoincidentReceivers::coincide(const DrawItem& a, const DrawItem& b) {
   return known.coincide;
 }
 
+bool CoincidentReceivers::compare(const DrawItem& a, const DrawItem& b, double rounding) {
+  if (!meet(a.boundsWorld, b.boundsWorld, rounding)) return false;
+  if (hasFewTriangles(a) && hasFewTriangles(b)) return coincide(a, b);
+  const glm::dvec3 low = glm::abs(a.boundsWorld.low - b.boundsWorld.low),
+                   high = glm::abs(a.boundsWorld.high - b.boundsWorld.high);
+  const glm::dvec3 apart = glm::max(low, high);
+  return std::max({apart.x, apart.y, apart.z}) <= rounding;
+}
+
 bool CoincidentReceivers::among(std::span<const DrawItem> receivers) {
   if (known_.size() > kMostPairs) known_.clear();
+  struct Listed {
+    std::size_t place = 0;
+    double rounding = 0.0;
+  };
+  std::vector<Listed> byLowX;
+  double coarsest = 0.0;
   for (std::size_t i = 0; i < receivers.size(); ++i) {
-    const DrawItem& a = receivers[i];
-    const scene::Bounds& box = a.boundsWorld;
-    const bool few = hasFewTriangles(a);
-    if (few && coincide(a, a)) return true;
+    const scene::Bounds& box = receivers[i].boundsWorld;
+    if (hasFewTriangles(receivers[i]) && coincide(receivers[i], receivers[i])) return true;
     const glm::dvec3 size = glm::max(glm::abs(box.low), glm::abs(box.high));
-    const double rounding = 2.0 * kRoundings * std::max({size.x, size.y, size.z});
-    for (std::size_t k = 0; k < i; ++k) {
-      const DrawItem& b = receivers[k];
-      if (!meet(box, b.boundsWorld, rounding)) continue;
-      if (few && hasFewTriangles(b)) {
-        if (coincide(a, b)) return true;
-        continue;
-      }
-      const glm::dvec3 low = glm::abs(box.low - b.boundsWorld.low),
-                       high = glm::abs(box.high - b.boundsWorld.high);
-      const glm::dvec3 apart = glm::max(low, high);
-      if (std::max({apart.x, apart.y, apart.z}) <= rounding) return true;
+    byLowX.push_back({i, 2.0 * kRoundings * std::max({size.x, size.y, size.z})});
+    coarsest = std::max(coarsest, byLowX.back().rounding);
+  }
+  // Along x, so that only those are compared whose boxes overlap there.
+  std::ranges::sort(byLowX, {}, [&](const Listed& at) { return receivers[at.place].boundsWorld.low.x; });
+  for (std::size_t i = 0; i < byLowX.size(); ++i) {
+    const DrawItem& a = receivers[byLowX[i].place];
+    for (std::size_t k = i + 1; k < byLowX.size(); ++k) {
+      const DrawItem& b = receivers[byLowX[k].place];
+      if (b.boundsWorld.low.x > a.boundsWorld.high.x + coarsest) break;
+      const Listed& later = byLowX[i].place > byLowX[k].place ? byLowX[i] : byLowX[k];
+      if (compare(a, b, later.rounding)) return true;
     }
   }
   return false;

@@ -30,6 +30,8 @@ class CoincidentReceivers {
     bool coincide = false;
   };
   bool coincide(const DrawItem& a, const DrawItem& b);
+  /// By their triangles where both have few, else by their boxes.
+  bool compare(const DrawItem& a, const DrawItem& b, double rounding);
   std::map<std::pair<std::uint64_t, std::uint64_t>, Known> known_;
 };
 

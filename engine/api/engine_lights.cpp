@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
+
+#include "api/draw_items.hpp"
+#include "api/engine_state.hpp"
+#include "api/frame_desc.hpp"
+#include "api/receiver_reach.hpp"
+#include "base/keys.hpp"
+#include "planner/light_reach.hpp"
+
+namespace halfshadow {
+namespace {
+constexpr std::uint32_t kNoNumber = ~0u;
+
+/// With equal shadows, if not of equal colour.
+bool castsAlike(const scene::AreaLight& a, const scene::AreaLight& b) {
+  return a.centerWorld == b.centerWorld && a.halfU == b.halfU && a.halfV == b.halfV &&
+         a.emission == b.emission && (a.intensity > 0) == (b.intensity > 0);
+}
+}  // namespace
+
+void Engine::State::setLights(std::vector<scene::AreaLight> checked) {
+  if (checked == lights) return;
+  std::vector<std::uint32_t> numbers(checked.size(), kNoNumber);
+  std::vector<std::uint64_t> revisions(checked.size(), 0);
+  std::vector<bool> known(lights.size(), false);
+  const auto take = [&](std::size_t now, std::size_t before, std::uint64_t revision) {
+    known[before] = true;
+    numbers[now] = lightNumbers[before];
+    revisions[now] = revision;
+  };
+  // A light with the same values is the same light, wherever it stands: nothing of it is remade.
+  for (std::size_t i = 0; i < std::min(checked.size(), lights.size()); ++i) {
+    if (castsAlike(checked[i], lights[i])) take(i, i, lightRevisions[i]);
+  }
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    for (std::size_t k = 0; k < lights.size() && numbers[i] == kNoNumber; ++k) {
+      if (!known[k] && castsAlike(checked[i], lights[k])) take(i, k, lightRevisions[k]);
+    }
+  }
+  // One with other values is the one that stood in its place, if that is not found elsewhere; else it is new.
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    if (numbers[i] == kNoNumber && i < lights.size() && !known[i]) take(i, i, nextRevision++);
+  }
+  for (std::size_t i = 0; i < checked.size(); ++i) {
+    if (numbers[i] != kNoNumber) continue;
+    std::uint32_t number = 0;
+    while (std::ranges::find(numbers, number) != numbers.end()) ++number;
+    numbers[i] = number;
+    revisions[i] = nextRevision++;
+  }
+  lights = std::move(checked);
+  lightRevisions = std::move(revisions);
+  lightNumbers = std::move(numbers);
+  ++changes;
+}
+
+void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) {
+  LightCache& cache = cacheOf(light);
+  const int mapSize = settings->integer("map_size");
+  if (cache.key == plan.contentKey && cache.mapSize == mapSize) return;
+  cache.casterShapes.resize(plan.casters.size());
+  scene::Bounds castersWorld;
+  for (std::size_t place = 0; place < plan.casters.size(); ++place) {
+    const planner::PlannedObject& planned = lists.planned()[plan.casters[place]];
+    if (!cache.casterShapes.holds(place, planned.id, planned.revision)) {
+      cache.casterShapes.put(place, planned.id, planned.revision, lists.object(plan.casters[place]).shape());
+    }
+    castersWorld.include(cache.casterShapes.values()[place].boundsWorld);
+  }
+  cache.light = planner::lightWithinReach(lights[light], castersWorld);
+  cache.fit = cache.fitter.fit(cache.light, cache.casterShapes.values(), {.mapSize = mapSize});
+  cache.key = plan.contentKey;
+  cache.mapSize = mapSize;
+  cache.reachKey = 0;
+}
+
+Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
+                                   const planner::FramePlan& framePlan) {
+  const planner::LightPlan& plan = framePlan.lights[index];
+  FrameLight& target = frame.lights[index];
+  LightCache& cache = cacheOf(index);
+  fitLight(index, plan);
+  api::updateItems(cache.casters, lists, plan.casters, api::ItemRole::caster);
+  techniques::Technique* used = technique;
+  if (!plan.active || cache.fit.empty || plan.casters.empty()) {
+    frame.graph.noteSkipped(nameOf(index) + " shadows",
+                            std::string(planner::skipText(planner::SkipReason::noCasters)));
+    used = techniqueNamed("none");
+  }
+  // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
+  shadowless.clear();
+  auto caster = plan.casters.begin();  // in the order of objects
+  for (std::uint32_t i = 0; i < lists.planned().size(); ++i) {
+    const bool casts = caster != plan.casters.end() && *caster == i;
+    if (casts) ++caster;
+    if (!casts && lists.planned()[i].receives) shadowless.push_back(i);
+  }
+  api::updateItems(cache.shadowlessReceivers, lists, shadowless, api::ItemRole::shadowless);
+  const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
+  const double receiverFarDistance = receiverReach(cache, sceneKey);
+  std::string splitReason;
+  const planner::SubLights* subLights = cache.split.update({.light = cache.light,
+                                                            .fit = cache.fit,
+                                                            .casters = cache.casterShapes.values(),
+                                                            .receiverFarDistance = receiverFarDistance,
+                                                            .contentKey = plan.contentKey},
+                                                           *used, *settings, splitReason);
+  if (!splitReason.empty()) frame.graph.noteSkipped(nameOf(index) + " sub-lights", splitReason);
+  const techniques::LightScene scene{.capabilities = context->capabilities(),
+                                     .settings = *settings,
+                                     .screen = frame.view,
+                                     .channel = static_cast<int>(index),
+                                     .name = nameOf(index),
+                                     .light = cache.light,
+                                     .center = {.fit = cache.fit,
+                                                .casters = cache.casters.values(),
+                                                .contentKey = plan.contentKey,
+                                                .sceneKey = sceneKey},
+                                     .subLights = subLights,
+                                     .casterShapes = cache.casterShapes.values(),
+                                     .receiverFarDistance = receiverFarDistance,
+                                     .casters = cache.casters.values(),
+                                     .groups = cache.groups,
+                                     .receivers = frame.receivers,
+                                     .shadowlessReceivers = cache.shadowlessReceivers.values(),
+                                     .contentKey = plan.contentKey,
+                                     .sceneKey = sceneKey};
+  const bool hostEvaluates = frame.desc.output == Output::lightsOnly;
+  if (const auto standIn = used->standIn(scene)) {
+    const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
+                                              : "; " + standIn->id + " takes the light";
+    frame.graph.noteSkipped(nameOf(index) + " " + used->info().id, standIn->reason + outcome);
+    if (!hostEvaluates) used = techniqueNamed(standIn->id);
+  }
+  auto shading = shadingOf(passes, index, *used, scene);
+  if (!shading) return shading.error();
+  target.shading = std::move(shading).value();
+  if (hostEvaluates) {
+    for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
+    return {};
+  }
+  auto linked = techniques::receiverPrograms(*programs, target.shading,
+                                             api::receiverOutput(frame.desc, lights.size()), frame.receivers);
+  if (!linked) return linked.error();
+  target.programs = *linked;
+  return {};
+}
+
+double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) const {
+  if (cache.reachKey == sceneKey) return cache.receiverFarDistance;
+  cache.reachKey = sceneKey;
+  cache.receiverFarDistance = api::receiverFarDistance(cache.fit, lists.planned());
+  return cache.receiverFarDistance;
+}
+
+Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
+                                                             std::size_t index, techniques::Technique& used,
+                                                             const techniques::LightScene& scene) {
+  LightCache& cache = cacheOf(index);
+  if (cache.passesOf != &used) {
+    cache.passesOf = &used;
+    cache.passes = std::make_unique<techniques::LightPasses>(used.newPlanner());
+  }
+  techniques::Device device{*context, *programs, shared};
+  if (Status s = cache.passes->prepare(scene); !s) return s.error();
+  if (Status s = cache.passes->upload(device); !s) return s.error();
+  return cache.passes->declare(passes);
+}
+
+}  // namespace halfshadow
