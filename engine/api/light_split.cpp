@@ -21,18 +21,20 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
   const SubLightUse use = technique.subLightUse(settings);
   if (use == SubLightUse::none || inputs.fit.empty) return nullptr;
   const std::string& asked = settings.choice("sub_lights");
+  planner::SubLightNeeds needs = technique.subLightNeeds(settings, inputs.fit.mapSize);
+  const int mapSize = needs.mapSize;
   int perSide = 1;
   if (asked != "auto") {
     std::from_chars(asked.data(), asked.data() + asked.size(), perSide);
   } else if (use == SubLightUse::automatic) {
-    const planner::SubLightChoice choice = planner::chooseSubLights(
-        {widestPenumbraTexels(inputs.fit, inputs.receiverFarDistance), inputs.fit.mapSize});
+    needs.widestPenumbraTexels = widestPenumbraTexels(inputs.fit, inputs.receiverFarDistance) *
+                                 (static_cast<double>(mapSize) / inputs.fit.mapSize);
+    const planner::SubLightChoice choice = planner::chooseSubLights(needs);
     perSide = choice.perSide;
     reason = choice.reason;
   }
   const planner::SubLightGrid grid = planner::subLightGrid(inputs.light, perSide);
   if (grid.whole()) return nullptr;
-  const int mapSize = inputs.fit.mapSize;
   if (planner::subLightMapSize(grid, mapSize) == 0) {
     reason = "map-too-small: maps of " + std::to_string(grid.count()) +
              " sub-lights would have less than 64 texels a side; the light is seen whole";

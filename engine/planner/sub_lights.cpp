@@ -14,10 +14,6 @@ namespace {
 constexpr int kCoarsestCells = 4, kMostCoarsestCells = 6;
 // Pyramids over a map begin with cells of 4 texels and need a few levels.
 constexpr int kSmallestMap = 64;
-// Texels, from which on a penumbra is better seen through nine maps of a third: a sub-light leaves a ninth of
-// them.
-constexpr double kWorthSplitting = 60.0;
-
 glm::dmat4 translated(const glm::dvec2& offset) {
   glm::dmat4 matrix(1.0);
   matrix[3] = glm::dvec4(-offset, 0.0, 1.0);
@@ -93,11 +89,11 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
 
 SubLightChoice chooseSubLights(const SubLightNeeds& needs) {
   const auto texels = std::to_string(std::lround(needs.widestPenumbraTexels));
-  if (needs.widestPenumbraTexels < kWorthSplitting)
+  if (needs.widestPenumbraTexels < needs.worthSplitting)
     return {1, "penumbra-narrow: the widest is " + texels +
                    " texels wide, and a sub-light's map would be coarser"};
-  return {3, "penumbra-wide: the widest is " + texels +
-                 " texels wide in one map, which sees all of it from one point of the light"};
+  return {needs.perSide, "penumbra-wide: the widest is " + texels +
+                             " texels wide in one map, which sees all of it from one point of the light"};
 }
 
 }  // namespace halfshadow::planner

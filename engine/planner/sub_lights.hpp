@@ -61,7 +61,11 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3
 /// What a number of sub-lights is decided from.
 struct SubLightNeeds {
   double widestPenumbraTexels = 0.0;  ///< in one map of mapSize texels
-  int mapSize = 1024;
+  int mapSize = 1024;                 ///< texels a side that all sub-lights' maps share
+  int perSide = 3;                    ///< of a light that is split
+  /// Texels, from which on a penumbra is better seen through the maps of sub-lights. By default through nine:
+  /// a sub-light then leaves a ninth of them.
+  double worthSplitting = 60.0;
 };
 struct SubLightChoice {
   int perSide = 1;

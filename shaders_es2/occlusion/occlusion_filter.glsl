@@ -2,11 +2,19 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Means of an occlusion texture's channels over a rectangle of the map: the light's frustum. Channels are named by
 // column and row: red (0, 0), green (1, 0), blue (0, 1), alpha (1, 1); pairs by their row.
-// HS_FILTER_NBUFFER and HS_FILTER_MIPMAP: x: map side in texels, yz: 1 / atlas size, w: last level;
-// HS_FILTER_SAT: x: map side in texels, y: 1 / side of the sums' texture, z: 256 / count of a full texel.
+// HS_FILTER_NBUFFER and HS_FILTER_MIPMAP: x: side of all maps in texels, yz: 1 / atlas size, w: last level;
+// HS_FILTER_SAT: x: the same, y: 1 / side of the sums' texture, z: 256 / count of a full texel.
 uniform HS_HIGHP vec4 u_occlusionLayout;
 // xy: sides of the kernel over its longer one; HS_BOXES > 1: z: side of one of the boxes that make up the kernel
 uniform HS_HIGHP vec4 u_kernelShape;
+#ifdef HS_SUB_LIGHTS_U
+// Maps of HS_SUB_LIGHTS_U x HS_SUB_LIGHTS_V sub-lights stand in rows.
+uniform HS_HIGHP vec4 u_tiles;  // xy: columns and rows, zw: texels of a map
+HS_HIGHP vec2 hs_tile;          // whose map is read: column and row
+#define hs_mapTexels u_tiles.zw
+#else
+#define hs_mapTexels vec2(u_occlusionLayout.x)
+#endif
 
 #if defined(HS_FILTER_NBUFFER)
 // Levels 0 to 3 at full resolution in a square of four, then samples at an eighth of the kernel's side in a
@@ -14,14 +22,25 @@ uniform HS_HIGHP vec4 u_kernelShape;
 HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
   float coarse = max(level - 3.0, 0.0);
   HS_HIGHP float perSample = exp2(-coarse);
-  HS_HIGHP float side = u_occlusionLayout.x * perSample + 11.0;
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 side = ceil(u_tiles.zw * perSample) + 11.0;
+#else
+  HS_HIGHP vec2 side = vec2(u_occlusionLayout.x * perSample + 11.0);
   HS_HIGHP float fullSide = u_occlusionLayout.x + 11.0;
+#endif
   float row = step(1.5, level);
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 full = u_tiles.zw + 11.0;
+  HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * full
+                                     : vec2(2.0 * full.x, u_tiles.w - ceil(u_tiles.w * 2.0 * perSample) + 13.0 * (coarse - 1.0));
+  origin = origin * u_tiles.xy + hs_tile * side;
+#else
   HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * fullSide
                                      : vec2(2.0 * fullSide, u_occlusionLayout.x * (1.0 - 2.0 * perSample) + 11.0 * (coarse - 1.0));
+#endif
   // Level 0 lies at texel centres, the means of the others where their texels meet.
   HS_HIGHP vec2 local = (level < 0.5 ? texel - 0.5 : texel * perSample) + 5.5;
-  return (origin + clamp(local, 0.5, side - 0.5)) * u_occlusionLayout.yz;
+  return (origin + clamp(local, vec2(0.5), side - 0.5)) * u_occlusionLayout.yz;
 }
 // x: the largest kernel not wider than `width`, y: the share of the next one, twice as wide, for which the mix
 // has the second moment of the kernel wanted.
@@ -34,10 +53,16 @@ HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
 #elif defined(HS_FILTER_MIPMAP)
 HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
   HS_HIGHP float perSample = exp2(-level);
-  HS_HIGHP float side = u_occlusionLayout.x * perSample;
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 side = u_tiles.zw * perSample;
+  HS_HIGHP vec2 origin = level < 0.5 ? vec2(0.0) : vec2(u_tiles.z + 2.0, u_tiles.w - 2.0 * side.y + 2.0 * (level - 1.0));
+  origin = origin * u_tiles.xy + hs_tile * (side + 2.0) + 1.0;
+#else
+  HS_HIGHP vec2 side = vec2(u_occlusionLayout.x * perSample);
   HS_HIGHP vec2 origin = level < 0.5 ? vec2(1.0)
-                                     : vec2(u_occlusionLayout.x + 3.0, 1.0 + u_occlusionLayout.x - 2.0 * side + 2.0 * (level - 1.0));
-  return (origin + clamp(texel * perSample, -0.5, side + 0.5)) * u_occlusionLayout.yz;
+                                     : vec2(u_occlusionLayout.x + 3.0, 1.0 + u_occlusionLayout.x - 2.0 * side.y + 2.0 * (level - 1.0));
+#endif
+  return (origin + clamp(texel * perSample, vec2(-0.5), side + 0.5)) * u_occlusionLayout.yz;
 }
 // A linear fetch of level l weighs a tent of 2^(l+1) texels, as wide as a box of sqrt(3) 2^l.
 HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
@@ -51,15 +76,19 @@ HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
 // Sum over all texels before a corner of the texel grid, as bytes.
 HS_HIGHP vec3 hs_sumBefore(HS_HIGHP sampler2D sums, HS_HIGHP vec2 corner, vec2 tile) {
   HS_COUNT(1);
-  HS_HIGHP vec2 last = clamp(corner, 0.0, u_occlusionLayout.x) - 0.5;
+  HS_HIGHP vec2 last = clamp(corner, vec2(0.0), hs_mapTexels) - 0.5;
   float inside = step(0.0, min(last.x, last.y));
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 place = max(last, 0.5) + tile * u_occlusionLayout.x + hs_tile * u_tiles.zw;
+#else
   HS_HIGHP vec2 place = max(last, 0.5) + tile * u_occlusionLayout.x;
+#endif
   return floor(texture2D(sums, place * u_occlusionLayout.y).rgb * 255.0 + 0.5) * inside;
 }
 #ifdef HS_SAT_SMOOTH
 // The integral of the texels over everything before any point: exact between texels too, for four fetches.
 HS_HIGHP vec3 hs_corner(HS_HIGHP sampler2D sums, HS_HIGHP vec2 at, vec2 tile) {
-  HS_HIGHP vec2 inside = clamp(at, 0.0, u_occlusionLayout.x);
+  HS_HIGHP vec2 inside = clamp(at, vec2(0.0), hs_mapTexels);
   HS_HIGHP vec2 low = floor(inside);
   HS_HIGHP vec2 part = inside - low;
   return mix(mix(hs_sumBefore(sums, low, tile), hs_sumBefore(sums, low + vec2(1.0, 0.0), tile), part.x),
@@ -92,6 +121,9 @@ float hs_channelMean(HS_HIGHP sampler2D sums, vec2 channel, HS_HIGHP vec2 texel,
 vec2 hs_pairMean(HS_HIGHP sampler2D sums, float pair, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   return vec2(hs_boxMean(sums, texel, width, vec2(0.0, pair)), hs_boxMean(sums, texel, width, vec2(1.0, pair)));
 }
+vec4 hs_pairsMean(HS_HIGHP sampler2D sums, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+  return vec4(hs_pairMean(sums, 0.0, texel, width), hs_pairMean(sums, 1.0, texel, width));
+}
 #else
 vec4 hs_squareMean(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   HS_HIGHP vec2 level = hs_levels(width);
@@ -122,4 +154,5 @@ vec2 hs_pairMean(HS_HIGHP sampler2D levels, float pair, HS_HIGHP vec2 texel, HS_
   vec4 mean = hs_levelFetch(levels, texel, width);
   return mix(mean.rg, mean.ba, pair);
 }
+#define hs_pairsMean hs_levelFetch
 #endif

@@ -67,6 +67,45 @@ class OcclusionAccuracy : public SharedEngineTest {
   }
 };
 
+// Measured .019 and .010 at four sub-lights against .047 and .026, mipmaps .024 and .014 against .066 and
+// .051.
+TEST_F(OcclusionAccuracy, ASplitLightErrsLessOnEachFilter) {
+  for (const char* name : {"spheres27", "figure"}) {
+    const Truth& truth = truthOf(name);
+    renderer().load(builtinScene(name));
+    const std::vector<std::uint8_t> judged = truth.penumbraOnGround();
+    for (const char* filter : {"nbuffer", "sat", "mipmap"}) {
+      const auto rmse = [&](const char* subLights) {
+        Configuration configuration = occlusion({{"filter", filter}});
+        configuration.settings.push_back({"sub_lights", subLights});
+        const std::vector<float> visibility = renderer().render(configuration).visibility();
+        const auto error = metrics::errorStatistics(visibility, truth.visibility, judged);
+        EXPECT_EQ(error.nanPixels, 0u);
+        std::printf("%s %s sub_lights=%s rmse %.4f\n", name, filter, subLights, error.rmse);
+        return error.rmse;
+      };
+      const double whole = rmse("1");
+      EXPECT_LE(rmse("2"), 0.6 * whole) << name << " " << filter;
+      EXPECT_LE(rmse("auto"), 0.6 * whole) << name << " " << filter;
+    }
+  }
+}
+
+TEST_F(OcclusionAccuracy, ASplitLightTakesNoMorePassesThanOneMap) {
+  for (const char* filter : {"nbuffer", "sat", "mipmap"}) {
+    const auto passes = [&](const char* subLights) {
+      renderer().load(builtinScene("spheres27"));  // nothing is kept of the last pictures
+      Configuration configuration = occlusion({{"filter", filter}});
+      configuration.settings.push_back({"sub_lights", subLights});
+      renderer().render(configuration);
+      return renderer().report().lightPasses();
+    };
+    const auto whole = passes("1");
+    for (const char* several : {"2", "3", "auto"})
+      EXPECT_LE(passes(several), whole) << filter << " " << several;
+  }
+}
+
 // The project's figures; measured .032 at both (one depth layer is the wall, as for pcss). Without highp map
 // coordinates have 11 bits, steps of a third of a texel: measured .004 more, inside the same figures.
 TEST_F(OcclusionAccuracy, TunedReachesTheProjectsFigures) {
@@ -194,12 +233,19 @@ TEST_F(OcclusionAccuracy, FetchesDependNeitherOnTheLightNorOnTheScene) {
   for (const std::string& name :
        {std::string("figure@light=0.3"), std::string("figure@light=2"), std::string("spheres27@light=1")}) {
     renderer().load(builtinScene(name));
-    const Image counts = renderer().render(occlusion(), Output::taps);
-    int most = 0;
-    for (std::size_t i = 0; i < counts.pixels(); ++i)
-      most = std::max(most, counts.byte(i, 0) + 256 * counts.byte(i, 1));
-    EXPECT_GT(most, 8) << name;
-    EXPECT_LE(most, 16) << name;
+    const auto mostFetches = [&](const char* subLights) {
+      const Image counts =
+          renderer().render({"occlusion-textures", {{"sub_lights", subLights}}}, Output::taps);
+      int most = 0;
+      for (std::size_t i = 0; i < counts.pixels(); ++i)
+        most = std::max(most, counts.byte(i, 0) + 256 * counts.byte(i, 1));
+      return most;
+    };
+    const int whole = mostFetches("1");
+    EXPECT_GT(whole, 8) << name;
+    EXPECT_LE(whole, 16) << name;
+    // Two for a texture, in which all sub-lights' occluders are looked for; then as many for each of four.
+    EXPECT_LE(mostFetches("auto"), 2 * 2 + 4 * 16) << name;
   }
 }
 

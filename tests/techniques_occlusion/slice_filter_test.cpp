@@ -48,7 +48,8 @@ class FilterPlanner final : public LightPlanner {
                           .textures = {{.sampler = "u_source", .own = source}}});
     plan.passes.push_back(std::move(pass));
     SliceSpace space;
-    space.mapSize = size_;
+    space.mapSize = glm::ivec2(size_);
+    space.atlasSize = size_;
     space.widestTexels = widestTexels_;
     auto made = planSliceFilter(scene, plan, space, {.textures = {slices}, .contentKey = 1}, filter_);
     if (!made) return made.error();

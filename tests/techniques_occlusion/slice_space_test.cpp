@@ -30,9 +30,9 @@ scene::AreaLight lightAt(const glm::dvec3& center, double sizeU, double sizeV) {
 }
 
 Result<SliceSpace> spaceOf(const planner::LightFit& fit, const std::vector<glm::dvec3>& points,
-                           const SliceOptions& options) {
+                           const SliceOptions& options, const planner::SubLights* split = nullptr) {
   const planner::CasterShape caster{.pointsWorld = points};
-  return makeSliceSpace(fit, {&caster, 1}, options);
+  return makeSliceSpace(fit, {&caster, 1}, options, split);
 }
 
 struct Case {
@@ -45,7 +45,7 @@ const Case kCases[] = {{SliceProjection::perspective, SliceCenter::light},
 
 /// Place in the map and in slice units of a point of the scene, as the slicing pass draws it.
 glm::dvec3 drawnAt(const SliceSpace& space, const glm::dvec3& world) {
-  const glm::dvec4 clip = space.clipFromWorld * glm::dvec4(world, 1.0);
+  const glm::dvec4 clip = space.views.front().clipFromWorld * glm::dvec4(world, 1.0);
   return (glm::dvec3(clip) / clip.w * 0.5 + 0.5) * glm::dvec3(1.0, 1.0, space.depthSlices);
 }
 
@@ -82,7 +82,7 @@ TEST(SliceSpace, FrustumSectionsOfReceiversAreThoseOfTheGeometry) {
       const auto sideAlong = [&](const glm::dvec3& half, int axis) {
         const glm::dvec3 a = drawnAt(*space, glm::mix(light.centerWorld + half, receiver, share));
         const glm::dvec3 b = drawnAt(*space, glm::mix(light.centerWorld - half, receiver, share));
-        return std::abs(a[axis] - b[axis]) * space->mapSize;
+        return std::abs(a[axis] - b[axis]) * space->mapSize.x;
       };
       EXPECT_NEAR(side * space->shape.x, sideAlong(light.halfU, 0), 1e-6);
       EXPECT_NEAR(side * space->shape.y, sideAlong(light.halfV, 1), 1e-6);
@@ -100,7 +100,7 @@ TEST(SliceSpace, EveryCasterLiesInsideTheMapAndInASlice) {
           spaceOf(fit, points, {.slices = slices, .projection = tested.projection, .center = tested.center});
       ASSERT_TRUE(space.ok());
       // Three texels of border; half a texel of the triangles' own extent may reach into it.
-      const double border = 2.5 / space->mapSize;
+      const double border = 2.5 / space->mapSize.x;
       for (const glm::dvec3& point : points) {
         const glm::dvec3 at = drawnAt(*space, point);
         EXPECT_GT(at.x, border);
@@ -189,8 +189,8 @@ TEST(SliceSpace, DegenerateLightsAndCastersGiveFiniteSpaces) {
         for (int column = 0; column < 4; ++column) {
           EXPECT_FALSE(glm::any(glm::isnan(space->mapFromWorld[column])) ||
                        glm::any(glm::isinf(space->mapFromWorld[column])));
-          EXPECT_FALSE(glm::any(glm::isnan(space->clipFromWorld[column])) ||
-                       glm::any(glm::isinf(space->clipFromWorld[column])));
+          EXPECT_FALSE(glm::any(glm::isnan(space->views.front().clipFromWorld[column])) ||
+                       glm::any(glm::isinf(space->views.front().clipFromWorld[column])));
         }
         EXPECT_TRUE(std::isfinite(space->widestTexels));
         EXPECT_GE(space->slices.size(), 1u);
@@ -199,6 +199,60 @@ TEST(SliceSpace, DegenerateLightsAndCastersGiveFiniteSpaces) {
       }
     }
   }
+}
+
+// A sub-light's map holds all casters, and a place there is the centre's plus a step for the point's own
+// slice.
+TEST(SliceSpace, SubLightsSeeAStepBesideTheCentre) {
+  const scene::AreaLight light = lightAt({1, 12, 2}, 3.0, 2.0);
+  for (const glm::dvec3& half : {glm::dvec3(3, 1, 3), glm::dvec3(6, 1, 0.3), glm::dvec3(0.3, 1, 6)}) {
+    const std::vector<glm::dvec3> points = casterPoints(-half, half, 40, 3);
+    const planner::LightFit fit = planner::fitLight(light, points, {});
+    for (const planner::SubLightGrid grid : {planner::SubLightGrid{2, 2}, planner::SubLightGrid{3, 2}}) {
+      for (const bool powersOfTwo : {false, true}) {
+        const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
+        const auto space = spaceOf(fit, points, {.grid = grid, .powersOfTwo = powersOfTwo}, &split);
+        ASSERT_TRUE(space.ok());
+        ASSERT_EQ(space->views.size(), 1u * grid.count());
+        EXPECT_LE(space->tiles.x * space->mapSize.x, space->atlasSize);
+        EXPECT_LE(space->tiles.y * space->mapSize.y, space->atlasSize);
+        for (std::size_t k = 0; k < space->views.size(); ++k) {
+          const Rect tile = space->tile(k, 2);
+          EXPECT_LE(std::max(tile.x + tile.width, tile.y + tile.height), 2 * space->atlasSize);
+          const int i = static_cast<int>(k) % grid.alongU, j = static_cast<int>(k) / grid.alongU;
+          for (const glm::dvec3& p : points) {
+            const glm::dvec4 map = space->mapFromWorld * glm::dvec4(p, 1.0);
+            const double own = map.z / map.w;
+            const glm::dvec2 steps =
+                (i - 0.5 * (grid.alongU - 1)) * space->stepU + (j - 0.5 * (grid.alongV - 1)) * space->stepV;
+            const glm::dvec2 expected =
+                space->center + glm::dvec2(map) / map.w + steps * (own - space->alignedSlice);
+            const glm::dvec4 clip = space->views[k].clipFromWorld * glm::dvec4(p, 1.0);
+            const glm::dvec2 drawn = glm::dvec2(clip) / clip.w * 0.5 + 0.5;
+            EXPECT_LT(glm::length(drawn - expected), 1e-9);
+            EXPECT_TRUE(glm::all(glm::greaterThan(drawn, glm::dvec2(0.0))) &&
+                        glm::all(glm::lessThan(drawn, glm::dvec2(1.0))));
+          }
+        }
+      }
+    }
+  }
+}
+
+// Maps of a row of posts are as wide as the atlas, one above the other.
+TEST(SliceSpace, TilesAreAsWideAsTheirContent) {
+  const scene::AreaLight light = lightAt({0, 12, 0.01}, 2.0, 2.0);
+  const planner::SubLightGrid grid{2, 2};
+  const auto tilesFor = [&](const glm::dvec3& half) {
+    const std::vector<glm::dvec3> points = casterPoints(-half, half, 40, 3);
+    const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
+    return spaceOf(planner::fitLight(light, points, {}), points, {.grid = grid}, &split)->tiles;
+  };
+  EXPECT_EQ(tilesFor({3, 1, 3}), glm::ivec2(2, 2));
+  const glm::ivec2 alongX = tilesFor({6, 1, 0.2}), alongZ = tilesFor({0.2, 1, 6});
+  EXPECT_EQ(alongX.x * alongX.y, 4);
+  EXPECT_NE(alongX, glm::ivec2(2, 2));
+  EXPECT_EQ(alongZ, glm::ivec2(alongX.y, alongX.x));
 }
 
 }  // namespace

@@ -37,7 +37,7 @@ const std::vector<Cost> kCosts = {
     {{"pcss"}, 1 + 4},
     {{"pcss-mip"}, 1 + 4 + 3},
     {{"pcf-quantized"}, 1 + 4 + 3},
-    {{"occlusion-textures"}, 2 + 2 + 2 * (8 + 1)},
+    {{"occlusion-textures"}, 1 + 2 + 2 * (6 + 1)},
     {{"shadow-width", {{"sub_lights", "1"}}}, 1 + 2 + 6 + 7 + 1},
     {{"shadow-width"}, 1 + 2 + 3 + 4 + 1 + 4},
     {{"shadow-volume"}, 0, 1},

@@ -60,6 +60,11 @@ class Technique {
     (void)settings;
     return SubLightUse::none;
   }
+  /// What setting sub_lights is decided from; `mapSize` is the setting's.
+  virtual planner::SubLightNeeds subLightNeeds(const Settings& settings, int mapSize) const {
+    (void)settings;
+    return {.mapSize = mapSize};
+  }
   /// For a light that takes this technique; the engine keeps it beside the light.
   virtual std::unique_ptr<LightPlanner> newPlanner() const = 0;
 };

@@ -17,6 +17,8 @@ constexpr int kMostBoxes = 8;
 /// Share of the casters' depth range that an occluder must be nearer than the receiver, and over which its
 /// shadow then fades in: hides what 8 bits of mean depth leave of a surface's own shadow.
 constexpr double kOwnSurfaceBias = 0.024;
+/// The same of sub-lights, whose texels are twice as wide.
+constexpr double kOwnSurfaceBiasOfParts = 0.048;
 
 /// Farthest over nearest caster: beyond, slices are thick against what lies in them, and casters beside the
 /// light leave the others too little of the map.
@@ -31,6 +33,8 @@ struct Choices {
   SliceFilter filter = SliceFilter::nbuffer;
   std::string combine;
   SliceOptions slicing;
+  /// Who names a number of sub-lights wants its accuracy; `auto` weighs what it costs.
+  bool oneSearch = false;
   bool paper() const { return preset == Preset::paper; }
 };
 
@@ -47,6 +51,7 @@ Choices readChoices(const Settings& settings) {
                                         : SliceFilter::nbuffer;
   choices.combine = choice("combine");
   if (choices.combine == "auto") choices.combine = choices.paper() ? "product" : "sum";
+  choices.oneSearch = settings.choice("sub_lights") == "auto";
   SliceOptions& slicing = choices.slicing;
   slicing.slices = settings.integer("occlusion-textures.slices");
   slicing.mapSize = settings.integer("occlusion-textures.map_size");
@@ -94,7 +99,8 @@ class OcclusionTextures final : public Technique {
             "slices; "
             "summed-area tables are exact",
         .knownFailures =
-            "tuned: only what the light's centre sees casts a shadow, and occluders in the receiver's own "
+            "tuned: only what the centre of the light, or of one of four parts, sees casts a shadow, and "
+            "occluders in the receiver's own "
             "slice "
             "blend with its surface; lights whose farthest caster is over 8 times as far as the nearest go "
             "to "
@@ -148,6 +154,19 @@ class OcclusionTextures final : public Technique {
     return sampledWhereCastersSpread(scene, kWidestSpread);
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return occlusionShaders(kMostBoxes); }
+  SubLightUse subLightUse(const Settings& settings) const override {
+    const Choices choices = readChoices(settings);
+    // Other views than the light's own see the same in an orthographic projection, and the paper has one.
+    const SliceOptions& slicing = choices.slicing;
+    const bool fromLight =
+        slicing.projection == SliceProjection::perspective && slicing.center == SliceCenter::light;
+    return !choices.paper() && fromLight ? SubLightUse::automatic : SubLightUse::none;
+  }
+  planner::SubLightNeeds subLightNeeds(const Settings& settings, int) const override {
+    // Means over texels need few of them in a penumbra; nine maps of 80 texels hold too little of its
+    // casters.
+    return {.mapSize = settings.integer("occlusion-textures.map_size"), .perSide = 2, .worthSplitting = 12.0};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 
@@ -156,6 +175,11 @@ class OcclusionPlanner final : public LightPlanner {
   Status plan(const LightScene& scene, PassPlan& plan) override {
     Choices choices = readChoices(scene.settings);
     choices.slicing.receiverFarDistance = scene.receiverFarDistance;
+    choices.slicing.powersOfTwo = choices.filter == SliceFilter::mipmap;
+    if (scene.subLights != nullptr) {
+      choices.slicing.grid = scene.subLights->grid;
+      choices.slicing.borderTexels = 1;  // the filters give each map a margin of its own
+    }
     if (const int size = choices.slicing.mapSize; (size & (size - 1)) != 0) {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
@@ -179,12 +203,22 @@ class OcclusionPlanner final : public LightPlanner {
   Status findSpace(const LightScene& scene, const SliceOptions& options) {
     if (space_ && contentKey_ == scene.contentKey && options_ == options) return {};
     space_.reset();
-    auto made = makeSliceSpace(scene.fit(), scene.casterShapes, options);
+    auto made = makeSliceSpace(scene.fit(), scene.casterShapes, options, scene.subLights);
     if (!made) return made.error();
     space_ = std::move(made).value();
     contentKey_ = scene.contentKey;
     options_ = options;
     return {};
+  }
+
+  static void addSubLights(const SliceSpace& space, bool oneSearch, ReceiverShading& shading) {
+    if (space.grid.whole()) return;
+    shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(space.grid.alongU));
+    shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(space.grid.alongV));
+    if (oneSearch) shading.defines.emplace_back("HS_ONE_SEARCH");
+    shading.uniforms.set("u_subLightStep", glm::vec4(space.stepU, space.stepV));
+    shading.uniforms.set("u_subLights", glm::vec4(space.alignedSlice, 0, 0, 0));
+    shading.uniforms.set("u_tiles", glm::vec4(space.tiles, space.mapSize));
   }
 
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
@@ -204,8 +238,8 @@ class OcclusionPlanner final : public LightPlanner {
     if (!choices.paper()) {
       shading.defines.push_back("HS_SLICE_DEPTH");
       shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-      shading.itemUniforms = [origin = space.originWorld](const DrawItem& item,
-                                                          device::UniformList& uniforms) {
+      const glm::dvec3 middle = 0.5 * (space.views.front().originWorld + space.views.back().originWorld);
+      shading.itemUniforms = [origin = middle](const DrawItem& item, device::UniformList& uniforms) {
         const device::Cull hidden = hiddenFaces(item, origin);
         uniforms.set("u_innerSide",
                      hidden == device::Cull::none ? 0.0f : (hidden == device::Cull::back ? 1.0f : -1.0f));
@@ -217,13 +251,15 @@ class OcclusionPlanner final : public LightPlanner {
       if (choices.filter == SliceFilter::summedArea) shading.defines.push_back("HS_SAT_SMOOTH");
     }
     if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
+    addSubLights(space, choices.oneSearch, shading);
     for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
       shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
     }
+    const double ownBias = space.grid.whole() ? kOwnSurfaceBias : kOwnSurfaceBiasOfParts;
     std::vector<glm::vec4> borders;
     for (const Slice& slice : space.slices) {
       borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low),
-                           kOwnSurfaceBias * choices.slicing.slices);
+                           ownBias * choices.slicing.slices);
     }
     // Channels without slice lie behind every receiver.
     borders.resize(slots, glm::vec4(1e4f, 1e4f, 0, 1));

@@ -33,38 +33,51 @@ std::uint64_t keyOf(std::uint64_t seed, double value) {
 }
 
 std::uint64_t spaceKey(std::uint64_t seed, const SliceSpace& space) {
-  seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize));
+  seed = combineKeys(seed, static_cast<std::uint64_t>(space.mapSize.x * 65536 + space.mapSize.y));
   seed = keyOf(keyOf(keyOf(seed, space.offsetDistance), space.ratio0), space.sideScale);
   seed = keyOf(seed, space.depthSlices);
+  seed = combineKeys(seed, static_cast<std::uint64_t>(space.grid.alongU * 16 + space.grid.alongV));
   for (const Slice& slice : space.slices) seed = keyOf(keyOf(seed, slice.casterLow), slice.high);
   return seed;
 }
 
 /// The faces that the centre of projection sees.
-MeshDraw facing(const SliceSpace& space, std::span<const DrawItem> items) {
+MeshDraw facing(const SliceView& view, std::span<const DrawItem> items) {
   return {.items = items,
-          .clipFromWorld = space.clipFromWorld,
+          .clipFromWorld = view.clipFromWorld,
           .faces = MeshDraw::Faces::turned,
-          .eyeWorld = space.originWorld};
+          .eyeWorld = view.originWorld};
 }
 
-PlannedDraw casterDraw(const SliceSpace& space, SliceContent content, std::span<const DrawItem> items) {
-  PlannedDraw draw;
-  MeshDraw meshes = facing(space, items);
-  if (content == SliceContent::nearestFaces) {
+/// `draw` for each view, into its part of an atlas; `meshes` says what of it is drawn.
+template <typename Meshes>
+void addToTiles(PlannedPass& pass, const SliceSpace& space, int scale, PlannedDraw draw, Meshes meshes) {
+  for (std::size_t i = 0; i < space.views.size(); ++i) {
+    draw.what = meshes(space.views[i]);
+    draw.viewport = space.tile(i, scale);
+    pass.draws.push_back(draw);
+  }
+}
+
+void addCasters(PlannedPass& pass, const SliceSpace& space, SliceContent content, int scale, PlannedDraw draw,
+                std::span<const DrawItem> items) {
+  const bool nearest = content == SliceContent::nearestFaces;
+  if (nearest) {
     draw.state.depth = {.test = device::Compare::less, .write = true};
   } else {
-    meshes.faces = MeshDraw::Faces::all;
     // Ones add up to at least one and are clamped there: whatever the order, the texel is occupied.
     draw.state.blend = {
         .enabled = true, .source = device::BlendFactor::one, .destination = device::BlendFactor::one};
   }
-  draw.what = meshes;
-  return draw;
+  addToTiles(pass, space, scale, std::move(draw), [&](const SliceView& view) {
+    MeshDraw meshes = facing(view, items);
+    if (!nearest) meshes.faces = MeshDraw::Faces::all;
+    return meshes;
+  });
 }
 
-/// Of slice passes: slice units of depth 1, 1 / texels per side, and the least depth from a caster to what it
-/// shadows: two steps of the stored depth.
+/// Of slice passes: slice units of depth 1, 1 / texels of the atlas per side, and the least depth from a
+/// caster to what it shadows: two steps of the stored depth.
 glm::vec4 depthUniform(const SliceSpace& space, int size) {
   return {space.depthSlices, 1.0 / size, 2.0 / 16777215.0, 0};
 }
@@ -74,11 +87,12 @@ struct LastReceiverDepth {
   std::uint64_t contentKey = 0;
 };
 std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, PassPlan& plan,
-                                                   const SliceSpace& space, int size) {
+                                                   const SliceSpace& space, int scale) {
   // Without highp no comparison tells a ground from what lies on it.
   if (!scene.capabilities.has(device::Capability::highp)) return std::nullopt;
   LastReceivers last = lastReceivers(scene);
   if (last.empty) return std::nullopt;
+  const int size = scale * space.atlasSize;
   const std::string name = scene.name + " occlusion last receivers";
   LastReceiverDepth result{.contentKey = combineKeys(spaceKey(last.contentKey, space), 3)};
   result.map = plan.addImage(
@@ -95,13 +109,88 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
       .program = plan.addProgram(
           {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
   draw.state.depth = {.test = device::Compare::greater, .write = true};
-  draw.what = facing(space, plan.keep(std::move(last.drawn)));
-  pass.draws.push_back(draw);
-  SliceSpace flat = space;
-  flat.clipFromWorld = almostInfinitelyFar(flat.clipFromWorld);
-  draw.what = facing(flat, plan.keep(std::move(last.infinite)));
-  pass.draws.push_back(std::move(draw));
+  const auto drawn = plan.keep(std::move(last.drawn)), infinite = plan.keep(std::move(last.infinite));
+  addToTiles(pass, space, scale, draw, [&](const SliceView& view) { return facing(view, drawn); });
+  addToTiles(pass, space, scale, draw, [&](SliceView view) {
+    view.clipFromWorld = almostInfinitelyFar(view.clipFromWorld);
+    return facing(view, infinite);
+  });
   plan.passes.push_back(std::move(pass));
+  return result;
+}
+framegraph::ResourceDesc texturesDesc(const std::string& name, const SliceSpace& space, SliceFilter filter) {
+  framegraph::ResourceDesc desc{.name = name,
+                                .width = space.atlasSize,
+                                .height = space.atlasSize,
+                                .lifetime = framegraph::Lifetime::persistent};
+  if (filter == SliceFilter::mipmap) {
+    desc.mipmapped = true;
+    desc.filter = framegraph::Filter::linearMipNearest;
+  }
+  return desc;
+}
+
+/// Texels of a map a side that one of several views' maps is drawn with. Casters are drawn once for each view
+/// instead of once for each texture.
+constexpr int kSorted = 3;
+
+/// Nearest faces of all views in one pass, sorted into slices by one for each texture.
+SliceTextures planSortedSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
+                               SliceFilter filter) {
+  SliceTextures result{.slicesPerTexture = 2};
+  result.contentKey = combineKeys(spaceKey(scene.contentKey, space), 3);
+  const int size = kSorted * space.atlasSize;
+  const std::optional<LastReceiverDepth> last = planLastReceivers(scene, plan, space, kSorted);
+  std::vector<std::string> defines;
+  if (last) {
+    defines.push_back("HS_LAST_RECEIVERS");
+    result.lastReceivers = last->map;
+    result.contentKey = combineKeys(result.contentKey, last->contentKey);
+  }
+  const std::string name = scene.name + " occlusion casters";
+  const auto fine = plan.addImage(
+      {.name = name, .width = size, .height = size, .lifetime = framegraph::Lifetime::persistent});
+  const auto depth = plan.addImage({.name = name + " depth test",
+                                    .width = size,
+                                    .height = size,
+                                    .format = framegraph::Format::depth24,
+                                    .storage = framegraph::Storage::renderbuffer});
+  PlannedPass pass{.name = name,
+                   .stage = framegraph::PassStage::light,
+                   .contentKey = combineKeys(spaceKey(scene.contentKey, space), 4)};
+  pass.writes = {
+      {.resource = fine, .point = framegraph::AttachmentPoint::color, .clear = {.color = {1, 1, 1, 1}}},
+      {.resource = depth, .point = framegraph::AttachmentPoint::depth}};
+  PlannedDraw draw{
+      .program = plan.addProgram(
+          {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", {"HS_PACK_DEPTH"}})};
+  addCasters(pass, space, SliceContent::nearestFaces, kSorted, std::move(draw), scene.casters);
+  plan.passes.push_back(std::move(pass));
+  for (std::size_t first = 0; first < space.slices.size(); first += 2) {
+    const std::string slices = scene.name + " occlusion slices " + std::to_string(first + 1) + "-" +
+                               std::to_string(std::min(first + 2, space.slices.size()));
+    const ChannelBorders borders = channelBorders(space, first, 2);
+    device::UniformList uniforms;
+    uniforms.set("u_sliceLow", borders.low);
+    uniforms.set("u_sliceHigh", borders.high);
+    uniforms.set("u_sliceDepth", depthUniform(space, size));
+    const auto target = plan.addImage(texturesDesc(slices, space, filter));
+    addFilterPass(plan, {.name = slices,
+                         .fragmentFile = "occlusion/occlusion_sort.frag",
+                         .defines = defines,
+                         .source = fine,
+                         .target = target,
+                         .sourceSize = size,
+                         .targetSize = space.atlasSize,
+                         .contentKey = combineKeys(result.contentKey, first + 1),
+                         .sampler = "u_source",
+                         .uniforms = std::move(uniforms)});
+    if (last) {
+      plan.passes.back().draws.back().textures.push_back(
+          {.sampler = "u_lastReceivers", .resource = last->map});
+    }
+    result.textures.push_back(target);
+  }
   return result;
 }
 }  // namespace
@@ -109,14 +198,18 @@ std::optional<LastReceiverDepth> planLastReceivers(const LightScene& scene, Pass
 SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
                          SliceContent content, SliceFilter filter) {
   const bool nearest = content == SliceContent::nearestFaces;
+  // Without highp no shader takes packed depths apart.
+  if (nearest && !space.grid.whole() && scene.capabilities.has(device::Capability::highp))
+    return planSortedSlices(scene, plan, space, filter);
   SliceTextures result{.slicesPerTexture = nearest ? 2 : 4};
   result.contentKey = combineKeys(spaceKey(scene.contentKey, space), nearest ? 2 : 1);
-  const int size = nearest ? 2 * space.mapSize : space.mapSize;
+  const int scale = nearest ? 2 : 1;
+  const int size = scale * space.atlasSize;
   std::vector<std::string> defines;
   std::optional<LastReceiverDepth> last;
   if (nearest) {
     defines.push_back("HS_SLICE_DEPTH");
-    last = planLastReceivers(scene, plan, space, size);
+    last = planLastReceivers(scene, plan, space, scale);
     if (last) {
       defines.push_back("HS_LAST_RECEIVERS");
       result.lastReceivers = last->map;
@@ -130,15 +223,7 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
         std::min(first + static_cast<std::size_t>(result.slicesPerTexture), space.slices.size());
     const std::string name = prefix + "slices " + std::to_string(first + 1) + "-" + std::to_string(end);
     const std::uint64_t key = combineKeys(result.contentKey, first + 1);
-    framegraph::ResourceDesc desc{.name = name,
-                                  .width = space.mapSize,
-                                  .height = space.mapSize,
-                                  .lifetime = framegraph::Lifetime::persistent};
-    if (filter == SliceFilter::mipmap) {
-      desc.mipmapped = true;
-      desc.filter = framegraph::Filter::linearMipNearest;
-    }
-    const auto averaged = plan.addImage(desc);
+    const auto averaged = plan.addImage(texturesDesc(name, space, filter));
     auto target = averaged;
     if (nearest) {
       target = plan.addImage({.name = name + ", fine",
@@ -158,15 +243,14 @@ SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpa
       pass.writes.push_back({.resource = depth, .point = framegraph::AttachmentPoint::depth});
     }
     pass.contentKey = key;
-    PlannedDraw draw = casterDraw(space, content, scene.casters);
-    draw.program =
-        plan.addProgram({"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines});
+    PlannedDraw draw{.program = plan.addProgram(
+                         {"occlusion/occlusion_slices.vert", "occlusion/occlusion_slices.frag", defines})};
     const ChannelBorders borders = channelBorders(space, first, result.slicesPerTexture);
     draw.uniforms.set("u_sliceLow", borders.low);
     draw.uniforms.set("u_sliceHigh", borders.high);
     draw.uniforms.set("u_sliceDepth", depthUniform(space, size));
     if (last) draw.textures = {{.sampler = "u_lastReceivers", .resource = last->map}};
-    pass.draws.push_back(std::move(draw));
+    addCasters(pass, space, content, scale, std::move(draw), scene.casters);
     plan.passes.push_back(std::move(pass));
     if (nearest) {
       // A linear fetch at a corner of four fine texels is their mean.

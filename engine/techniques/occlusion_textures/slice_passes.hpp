@@ -19,7 +19,7 @@ enum class SliceContent {
 };
 enum class SliceFilter { mipmap, nbuffer, summedArea };
 
-/// Occlusion textures before filtering, mapSize² texels each.
+/// Occlusion textures before filtering, mapSize² texels for each view.
 struct SliceTextures {
   std::vector<framegraph::ResourceId> textures;
   int slicesPerTexture = 4;

@@ -3,6 +3,7 @@
 #include "techniques/occlusion_textures/slice_space.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -47,6 +48,51 @@ double pyramidOffset(const planner::LightFit& fit, const std::vector<glm::dvec3>
     }
   }
   return offset;
+}
+
+/// Side of the largest tiles of which `count` stand side by side: a multiple of 8, for the levels of filters.
+int tileSide(int atlasSize, int count) {
+  return count == 1 ? atlasSize : atlasSize / count / 8 * 8;
+}
+
+/// Maps are as wide and as high as their content asks for: a row of posts in tiles side by side would have a
+/// quarter of the texels that it has in tiles one above the other.
+void setTiles(const SliceOptions& options, const glm::dvec2& extent, SliceSpace& space) {
+  constexpr int kLeastSide = 48;
+  constexpr double kClearlyFiner = 0.9;  // than square tiles
+  space.grid = options.grid;
+  space.atlasSize = options.mapSize;
+  const int count = options.grid.count();
+  const auto roundUp = [&](int n) {
+    return options.powersOfTwo ? static_cast<int>(std::bit_ceil(static_cast<unsigned>(n))) : n;
+  };
+  const auto coarseness = [&](const glm::ivec2& size) {
+    return std::max(extent.x / size.x, extent.y / size.y);
+  };
+  space.tiles = glm::ivec2(roundUp(options.grid.tilesPerSide()));
+  space.mapSize = glm::ivec2(tileSide(options.mapSize, space.tiles.x));
+  double least = kClearlyFiner * coarseness(space.mapSize);
+  for (int i = 1; i <= count; ++i) {
+    const int columns = roundUp(i), rows = roundUp((count + columns - 1) / columns);
+    const glm::ivec2 size(tileSide(options.mapSize, columns), tileSide(options.mapSize, rows));
+    if (std::min(size.x, size.y) < kLeastSide || coarseness(size) >= least) continue;
+    least = coarseness(size);
+    space.tiles = {columns, rows};
+    space.mapSize = size;
+  }
+}
+
+/// Of all views, in the light's plane.
+std::vector<glm::dvec2> viewCenters(const planner::SubLights* split) {
+  if (split == nullptr) return {glm::dvec2(0.0)};
+  std::vector<glm::dvec2> centers;
+  for (int j = 0; j < split->grid.alongV; ++j) {
+    for (int i = 0; i < split->grid.alongU; ++i) {
+      centers.push_back((i - 0.5 * (split->grid.alongU - 1)) * split->stepU +
+                        (j - 0.5 * (split->grid.alongV - 1)) * split->stepV);
+    }
+  }
+  return centers;
 }
 
 /// Of the caster in light space, none before the near distance. Points that are moved there no longer hold
@@ -135,7 +181,7 @@ class OccupiedSlices {
 }  // namespace
 
 Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const planner::CasterShape> casters,
-                                  const SliceOptions& options) {
+                                  const SliceOptions& options, const planner::SubLights* split) {
   if (options.slices < 4 || options.slices > 16) {
     return Error{ErrorCode::invalidArgument, "occlusion-textures.slices=" + std::to_string(options.slices) +
                                                  " is outside 4-16; choose 4, 8, 12 or 16"};
@@ -157,7 +203,6 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
                  "no caster lies in front of the light, so there is nothing to slice"};
   }
   SliceSpace space;
-  space.mapSize = options.mapSize;
   const double offset =
       perspective && options.center == SliceCenter::behind ? pyramidOffset(fit, points) : 0.0;
   space.offsetDistance = offset;
@@ -175,9 +220,20 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   };
 
   // The map's extent: tangents seen from the centre of projection, or lengths.
+  // Views agree in the middle of the slices; elsewhere they lie apart by this times the difference of 1/z.
+  const std::vector<glm::dvec2> centers = viewCenters(split);
+  glm::dvec2 spread(0.0);
+  for (const glm::dvec2& c : centers) spread = glm::max(spread, glm::abs(c));
+  space.alignedSlice = 0.5;
+  const double qAligned = 0.5 * (qNear + qFar);
   Interval sides[2];
   for (int axis = 0; axis < 2; ++axis) {
-    for (const glm::dvec3& p : points) sides[axis].include(perspective ? p[axis] / (p.z + offset) : p[axis]);
+    for (const glm::dvec3& p : points) {
+      const double apart = spread[axis] * std::abs(1.0 / p.z - qAligned);
+      const double place = perspective ? p[axis] / (p.z + offset) : p[axis];
+      sides[axis].include(place - apart);
+      sides[axis].include(place + apart);
+    }
     const double limit = perspective ? kMaxTangent : std::numeric_limits<double>::infinity();
     sides[axis] = {std::max(sides[axis].low, -limit), std::min(sides[axis].high, limit)};
     if (!(sides[axis].high >= sides[axis].low)) {
@@ -186,14 +242,22 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     }
     // Casters seen edge-on, or as a point.
     const double least = std::max(size * kLeastThickness, depth.high * kRounding) / (perspective ? far : 1.0);
-    const double usable = options.mapSize - 2.0 * options.borderTexels;
-    sides[axis].grow(std::max(sides[axis].extent(), least) * options.mapSize / usable);
+    if (sides[axis].extent() < least) sides[axis].grow(least);
   }
   // Filters are square: stretch the smaller side until the light's frustum is square in texels.
-  const glm::dvec2 light = fit.halfSize;
+  const glm::dvec2 light = split != nullptr ? split->halfSize : fit.halfSize;
+  double ratio = 1.0;
   if (std::max(light.x, light.y) > 0.0) {
-    const double ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
-                                       : kLargestStretch;
+    ratio = light.x > 0.0 ? std::clamp(light.y / light.x, 1.0 / kLargestStretch, kLargestStretch)
+                          : kLargestStretch;
+  }
+  setTiles(options, {sides[0].extent(), sides[1].extent() / ratio}, space);
+  for (int axis = 0; axis < 2; ++axis) {
+    const double usable = space.mapSize[axis] - 2.0 * options.borderTexels;
+    sides[axis].grow(sides[axis].extent() * space.mapSize[axis] / usable);
+  }
+  if (std::max(light.x, light.y) > 0.0) {
+    ratio *= static_cast<double>(space.mapSize.y) / space.mapSize.x;
     const double wanted = sides[0].extent() * ratio;
     if (wanted > sides[1].extent()) {
       sides[1].grow(wanted);
@@ -203,9 +267,9 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   }
   const glm::dvec2 low{sides[0].low, sides[1].low}, extent{sides[0].extent(), sides[1].extent()};
   space.center = -low / extent;
-  const glm::dvec2 lightInMap = light / extent;
-  const double longest = std::max(lightInMap.x, lightInMap.y);
-  if (longest > 0.0) space.shape = lightInMap / longest;
+  const glm::dvec2 lightTexels = light / extent * glm::dvec2(space.mapSize);
+  const double longest = std::max(lightTexels.x, lightTexels.y);
+  if (longest > 0.0) space.shape = lightTexels / longest;
 
   const double depthSlices =
       kDepthReserve *
@@ -217,7 +281,7 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
   mapFromLight[0][0] = unit / extent.x;
   mapFromLight[1][1] = unit / extent.y;
   mapFromLight[2][3] = unit;
-  const double side = options.mapSize * 2.0 * longest;
+  const double side = 2.0 * longest;
   glm::dmat4 clipFromLight(0.0);
   if (perspective) {
     // s = (qNear (z + offset) - 1) / ((qNear - qFar) (z + offset))
@@ -242,7 +306,10 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
         glm::dvec4((2.0 * space.center - 1.0) * offset, depthScale * (qNear * offset - 1.0) - offset, offset);
     // Homogeneous coordinates near 1: they cross the rasteriser as mediump varyings.
     clipFromLight *= unit;
-    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld) * glm::dvec4(0, 0, -offset, 1));
+    if (split != nullptr) {
+      space.stepU = split->stepU / (scale * extent);
+      space.stepV = split->stepV / (scale * extent);
+    }
   } else {
     const double scale = 1.0 / (far - near);
     mapFromLight[2][2] = scale * unit;
@@ -259,10 +326,20 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     clipFromLight[1][1] = 2.0 / extent.y;
     clipFromLight[2][2] = depthScale;
     clipFromLight[3] = glm::dvec4(2.0 * space.center - 1.0, -near * depthScale - 1.0, 1.0);
-    space.originWorld = glm::dvec3(glm::inverse(fit.lightFromWorld)[3]);
   }
   space.mapFromWorld = mapFromLight * fit.lightFromWorld;
-  space.clipFromWorld = clipFromLight * fit.lightFromWorld;
+  const glm::dmat4 worldFromLight = glm::inverse(fit.lightFromWorld);
+  for (const glm::dvec2& c : centers) {
+    // A view from c: x - c + c z qAligned instead of x.
+    glm::dmat4 clip = clipFromLight;
+    for (int axis = 0; axis < 2; ++axis) {
+      clip[2][axis] += clip[axis][axis] * c[axis] * qAligned;
+      clip[3][axis] -= clip[axis][axis] * c[axis];
+    }
+    space.views.push_back(
+        {.clipFromWorld = clip * fit.lightFromWorld,
+         .originWorld = glm::dvec3(worldFromLight * glm::dvec4(c, -space.offsetDistance, 1.0))});
+  }
 
   std::vector<double> borders;
   for (int k = 0; k <= options.slices; ++k) {
