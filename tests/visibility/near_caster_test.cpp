@@ -65,6 +65,8 @@ class NearCaster : public SharedEngineTest {
   }
 };
 
+/// Of 64 points of the light, see accuracy_test.cpp.
+constexpr double kSampledAlone = 0.0181;
 /// Of the scene without a post by one map, of all three techniques.
 constexpr double kOneMapAlone = 0.033;
 
@@ -128,7 +130,9 @@ TEST_F(NearCaster, CastersBelowAReceiverChangeNothing) {
       floor.casts = false, floor.receives = true;
       const Judged judged = judge(scene({below, floor}), technique);
       std::printf("%-14s box below, top %5.2f: %.4f, alone %.4f\n", technique, top, judged.rmse, alone);
-      EXPECT_LE(judged.rmse, 1.1 * alone) << technique << ", top " << top;
+      const bool sampled =
+          renderer().report().hasSkip(std::string("light 0 ") + technique, "caster-behind-receiver");
+      EXPECT_LE(judged.rmse, 1.1 * (sampled ? kSampledAlone : alone)) << technique << ", top " << top;
     }
   }
 }
