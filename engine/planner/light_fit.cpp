@@ -45,6 +45,16 @@ DepthRange fitDepth(double nearest, double farthest, double minNearShare) {
   return {nearDistance, stepUp(farthest * (1.0 + kDepthMargin))};
 }
 
+/// The next of even steps from `farthest` on: an eighth of the casters' range or less, which for a sun is a
+/// small part of their distance, and the light's size halved or doubled, which is the same in whatever units.
+double alignedDistance(const LightSpace& space, double nearest, double farthest) {
+  const double size = std::max(space.halfSize.x, space.halfSize.y);
+  if (!(size > 0.0)) return farthest;
+  const double range = std::max(farthest - nearest, 1e-6 * farthest);
+  const double step = size * std::exp2(std::floor(std::log2(range / size))) / 8.0;
+  return std::ceil(farthest / step) * step;
+}
+
 // Smallest interval of whole steps that holds `tangents` and the border; the origin is a whole texel.
 Interval snapTangents(const Interval& tangents, int mapSize, int borderTexels) {
   // The origin is rounded down by up to one texel on top of the border on each side.
@@ -217,8 +227,7 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
-  const double size = std::max(space.halfSize.x, space.halfSize.y);
-  fit.alignedDistance = size > 0.0 ? stepUp(farthest / size) * size : depth.farDistance;
+  fit.alignedDistance = alignedDistance(space, std::max(nearest, depth.nearDistance), farthest);
   fit.nearestCaster = std::max(nearest, depth.nearDistance);
   fit.farthestCaster = farthest;
   fit.castersBeforeNear = nearest < depth.nearDistance;

@@ -26,8 +26,8 @@ struct LightFit {
   glm::dvec2 halfSize{0.0};  ///< world half lengths of the light along x and y
   glm::dvec2 tangentLow{-1.0}, tangentHigh{1.0};
   double nearDistance = 1.0, farDistance = 2.0;  ///< along z
-  /// Beyond all casters; in steps of the light's size, so that it is the same in whatever units. Of a split
-  /// light, where the places in all its maps agree.
+  /// Beyond all casters, but not far; moves in steps. Of a split light, where the places in all its maps
+  /// agree.
   double alignedDistance = 2.0;
   /// Along z, of what the map holds, between the two: those move in steps, which from a sun are many times as
   /// long as the scene.

@@ -33,8 +33,8 @@ class Engine {
 
   /// Up to kMaxLights lights. One with the same values as a light before is that light, wherever it stands in
   /// the list, and nothing of it is remade; among as many lights as before, one with other values is
-  /// the light that stood in its place, moved; else a new one. Reports name a light by the lowest number that was free when it was new:
-  /// "light 0". Errors: invalidLight, invalidArgument.
+  /// the light that stood in its place, moved; else a new one. Reports name a light by the lowest number that
+  /// was free when it was new: "light 0". Errors: invalidLight, invalidArgument.
   Outcome setLights(const LightDesc* lights, std::size_t count);
   /// Errors: unknownTechnique, capabilityMissing (naming the capability).
   Outcome setTechnique(const char* id);
