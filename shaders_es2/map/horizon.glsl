@@ -7,15 +7,9 @@ uniform HS_HIGHP vec4 u_lightSides;  // texels per unit of depth from one side o
 uniform HS_HIGHP vec4 u_receiver;    // x: solidity of a caster, 1 for a closed one; else 0
 
 // above: how far its centre is above the horizon, 1 for a light that faces the facet's own gradient; share: of the
-// light's sides. An area on one side of a straight line.
+// light's sides. Needs half_plane.glsl.
 float hs_shareAbove(HS_HIGHP vec2 gradient, HS_HIGHP float above, HS_HIGHP vec2 share) {
-  HS_HIGHP vec2 reach = abs(vec2(dot(gradient, u_lightSides.xy), dot(gradient, u_lightSides.zw))) * share;
-  HS_HIGHP float longer = max(max(reach.x, reach.y), 1e-3);
-  HS_HIGHP float ratio = max(min(reach.x, reach.y) / longer, 1e-3);
-  HS_HIGHP float size = abs(above) / longer;
-  HS_HIGHP float tail = max(0.5 + 0.5 * ratio - size, 0.0);
-  HS_HIGHP float part = size <= 0.5 - 0.5 * ratio ? 0.5 + size : 1.0 - tail * tail / (2.0 * ratio);
-  return above < 0.0 ? 1.0 - part : part;
+  return hs_shareInside(above, abs(vec2(dot(gradient, u_lightSides.xy), dot(gradient, u_lightSides.zw))) * share);
 }
 
 // Of the whole light.

@@ -7,6 +7,7 @@
 #include "map/depth_storage.glsl"
 #include "receiver/receiver_inputs.glsl"
 #include "map/shadow_tap.glsl"
+#include "map/half_plane.glsl"
 #include "map/horizon.glsl"
 #include "map/spread_places.glsl"
 #include "map/kernel_spread.glsl"

@@ -39,6 +39,7 @@ float hs_visibility() {
 #endif
 }
 #else
+#include "map/half_plane.glsl"
 #include "map/horizon.glsl"
 #ifdef HS_SUB_LIGHTS_U
 #include "map/penumbra_bounds.glsl"
@@ -73,13 +74,7 @@ HS_HIGHP float hs_casterDepth(HS_HIGHP float normalisedDistance) {
 // Share of a rectangle (widths.x by widths.y, centred on the receiver) on the inner side of a straight edge at a
 // signed distance, whose normal has the absolute components `normal`.
 HS_HIGHP float hs_halfPlane(HS_HIGHP float signedDistance, HS_HIGHP vec2 normal, HS_HIGHP vec2 widths) {
-  HS_HIGHP vec2 reach = normal * widths;
-  HS_HIGHP float longer = max(max(reach.x, reach.y), 1e-3);
-  HS_HIGHP float ratio = max(min(reach.x, reach.y) / longer, 1e-3);
-  HS_HIGHP float size = abs(signedDistance) / longer;
-  HS_HIGHP float tail = max(0.5 + 0.5 * ratio - size, 0.0);
-  HS_HIGHP float share = size <= 0.5 - 0.5 * ratio ? 0.5 + size : 1.0 - tail * tail / (2.0 * ratio);
-  return signedDistance < 0.0 ? 1.0 - share : share;
+  return hs_shareInside(signedDistance, normal * widths);
 }
 
 // Share of a rectangle outside a disc about its centre: the disc that reaches the nearest silhouette is all lit or all
