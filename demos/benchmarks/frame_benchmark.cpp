@@ -17,25 +17,10 @@
 #include <string_view>
 #include <vector>
 
+#include "counted_memory.hpp"
 #include "egl/headless.hpp"
 #include "gl_calls.hpp"
 #include "halfshadow/halfshadow.hpp"
-
-namespace {
-thread_local std::uint64_t allocations = 0;  // a software renderer's own threads do not count
-}
-
-void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
-  throw std::bad_alloc();
-}
-void operator delete(void* memory) noexcept {
-  std::free(memory);
-}
-void operator delete(void* memory, std::size_t) noexcept {
-  std::free(memory);
-}
 
 namespace halfshadow {
 namespace {
@@ -214,9 +199,9 @@ void frame(benchmark::State& state, const char* technique, Change change, Ground
   }
   std::uint64_t allocated = 0, calls = 0;
   for (auto unused : state) {
-    const std::uint64_t before = allocations, callsBefore = benchmarks::glCalls;
+    const std::uint64_t before = test::allocationCount(), callsBefore = benchmarks::glCalls;
     error = field->renderNext(change);
-    allocated += allocations - before;
+    allocated += test::allocationCount() - before;
     calls += benchmarks::glCalls - callsBefore;
     state.PauseTiming();  // what the driver still does must not run into the next frame's time
     field->finish();
