@@ -11,20 +11,22 @@
 namespace halfshadow::api {
 
 techniques::DrawItem drawItem(const EngineObject& object) {
+  const api::ObjectMesh& mesh = *object.mesh;
+  const scene::MeshStatistics& statistics = mesh.mesh().statistics;
   return {.object = object.id,
-          .mesh = &object.gpu,
+          .mesh = &mesh.gpu(),
           .casts = object.casts,
           .receives = object.receives,
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
           .boundsWorld = object.boundsWorld,
-          .closed = object.mesh.statistics.closed() && object.mesh.statistics.nonManifoldEdges == 0,
-          .solidity = object.solidity,
+          .closed = statistics.closed() && statistics.nonManifoldEdges == 0,
+          .solidity = object.casts ? mesh.solidity() : 1.0f,
           .mirrored = object.mirrored,
-          .facetStream = object.gpu.hasFacetStream(),
-          .sourceMesh = &object.mesh,
-          .geometry = &object.geometry,
+          .facetStream = mesh.gpu().hasFacetStream(),
+          .sourceMesh = &mesh.mesh(),
+          .geometry = &mesh.geometry(),
           .revision = object.revision};
 }
 
@@ -56,11 +58,12 @@ Status update(gl::Context& context, const EngineObject& object, const ReceiverVi
   if (cut.key == key) return {};
   cut = {.key = key};
   auto mesh = scene::cutToView(
-      object.mesh, {.clipFromObject = view.screen.clipFromWorld * object.worldFromObject,
-                    .worldFromObject = object.worldFromObject,
-                    .eyeWorld = view.screen.eyeWorld,
-                    .nearDistance = view.camera.nearDistance,
-                    .pixelAngle = 2.0 * std::tan(0.5 * view.camera.verticalFovRadians) / view.screen.height});
+      object.mesh->mesh(),
+      {.clipFromObject = view.screen.clipFromWorld * object.worldFromObject,
+       .worldFromObject = object.worldFromObject,
+       .eyeWorld = view.screen.eyeWorld,
+       .nearDistance = view.camera.nearDistance,
+       .pixelAngle = 2.0 * std::tan(0.5 * view.camera.verticalFovRadians) / view.screen.height});
   // What lies outside the view is drawn as it is, to no effect.
   if (!mesh || mesh->indices.empty()) return {};
   auto gpu = techniques::GpuMesh::create(context, *mesh);

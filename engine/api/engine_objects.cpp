@@ -6,20 +6,9 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
-#include "scene/solidity.hpp"
 
 namespace halfshadow {
 namespace {
-Result<scene::TriangleMesh> checkedMesh(const MeshDesc& mesh) {
-  return scene::buildMesh({.positions = mesh.positions,
-                           .positionStrideBytes = mesh.positionStrideBytes,
-                           .vertexCount = mesh.vertexCount,
-                           .indices = mesh.indices,
-                           .indexCount = mesh.indexCount,
-                           .normals = mesh.normals,
-                           .texcoords = mesh.texcoords});
-}
-
 Result<glm::dmat4> checkedTransform(const double matrix[16]) {
   const glm::dmat4 transform = glm::make_mat4(matrix);
   double sum = 0.0;
@@ -75,24 +64,18 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
   id = 0;
   if (state.context->lost())
     return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
-  auto mesh = checkedMesh(desc.mesh);
-  if (!mesh) return state.fail(mesh.error());
   auto transform = checkedTransform(desc.worldFromObject);
   if (!transform) return state.fail(transform.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   EngineObject object;
-  object.recenteredBy = scene::recenter(*mesh);
-  auto gpu = techniques::GpuMesh::create(*state.context, *mesh);
-  if (!gpu) return state.fail(gpu.error());
-  object.gpu = std::move(gpu).value();
+  auto mesh = state.meshes.find(*state.context, desc.mesh);
+  if (!mesh) return state.fail(mesh.error());
+  object.mesh = std::move(mesh).value();
   if (desc.baseColorPixels) {
     auto texture = baseColorTexture(*state.context, desc);
     if (!texture) return state.fail(texture.error());
     object.baseColorTexture = std::move(texture).value();
   }
-  object.mesh = std::move(mesh).value();
-  object.boundsObject = scene::boundsOf(object.mesh);
-  if (desc.casts) object.solidity = static_cast<float>(scene::solidity(object.mesh));
   object.place(*transform);
   object.casts = desc.casts;
   object.receives = desc.receives;
@@ -125,7 +108,7 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
   if (state.context->lost())
     return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
   EngineObject& object = found->second;
-  if (desc.vertexCount != object.mesh.positions.size()) {
+  if (desc.vertexCount != object.mesh->mesh().positions.size()) {
     return state.fail(
         {ErrorCode::invalidArgument, "setVertices needs as many vertices as the object was added with"});
   }
@@ -141,25 +124,15 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
       return state.fail({ErrorCode::invalidMesh, "vertex " + std::to_string(i) + " is NaN or infinite"});
     }
   }
-  object.mesh.positions = std::move(positions);
-  object.recenteredBy = scene::recenter(object.mesh);
-  object.boundsObject = scene::boundsOf(object.mesh);
-  object.place(object.worldFromHost);
-  object.positionsChanged();
-  if (desc.normals && !object.mesh.normals.empty()) {
-    for (std::uint32_t i = 0; i < desc.vertexCount; ++i)
-      object.mesh.normals[i] = glm::make_vec3(desc.normals + 3 * i);
-  }
   gl::HostStateGuard guard(*state.context, state.policy());
-  if (scene::turnShellsOutward(object.mesh)) {
-    // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
-    auto gpu = techniques::GpuMesh::create(*state.context, object.mesh);
-    if (!gpu) return state.fail(gpu.error());
-    object.gpu = std::move(gpu).value();
-    object.geometry = {};
-  } else if (const Status updated = object.gpu.update(*state.context, object.mesh); !updated) {
-    return state.fail(updated.error());
+  if (object.mesh.use_count() > 1) {
+    auto own = object.mesh->copy(*state.context);
+    if (!own) return state.fail(own.error());
+    object.mesh = std::move(own).value();
   }
+  if (Status s = object.mesh->setVertices(*state.context, std::move(positions), desc.normals); !s)
+    return state.fail(s.error());
+  object.place(object.worldFromHost);
   state.changed(object);
   return {};
 }

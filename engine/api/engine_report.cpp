@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include <algorithm>
+#include <set>
 
 #include "api/engine_state.hpp"
 
@@ -70,8 +71,10 @@ PassRecord recordOf(const framegraph::PassDesc& pass, const framegraph::PlannedP
 
 std::uint64_t Engine::State::memoryBytes() const {
   std::uint64_t bytes = executor->memoryBytes();
+  std::set<const api::ObjectMesh*> counted;
   for (const auto& [id, object] : objects) {
-    bytes += object.gpu.memoryBytes() + object.cutReceiver.gpu.memoryBytes() +
+    if (counted.insert(object.mesh.get()).second) bytes += object.mesh->gpu().memoryBytes();
+    bytes += object.cutReceiver.gpu.memoryBytes() +
              (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
   }
   return bytes;

@@ -92,6 +92,7 @@ struct Engine::State {
   std::unique_ptr<techniques::Settings> settings;
   std::vector<std::string> techniqueReasons, settingTexts;
   techniques::Technique* technique = nullptr;
+  api::MeshStore meshes;
   std::map<ObjectId, EngineObject> objects;
   api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;

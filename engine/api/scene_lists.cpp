@@ -12,9 +12,9 @@ planner::PlannedObject plannedObject(const EngineObject& object) {
           .revision = object.revision,
           .casts = object.casts,
           .receives = object.receives,
-          .mesh = &object.mesh,
-          .support = &object.support(),
-          .enclosing = &object.enclosing(),
+          .mesh = &object.mesh->mesh(),
+          .support = &object.mesh->support(),
+          .enclosing = &object.mesh->enclosing(),
           .worldFromObject = object.worldFromObject};
 }
 }  // namespace

@@ -19,9 +19,9 @@ namespace halfshadow::scene {
 /// A caster as the scene holds it.
 struct SceneCaster {
   const TriangleMesh* mesh = nullptr;
-  const CasterGeometry* geometry = nullptr;  ///< its half edges; tells casters apart
+  const CasterGeometry* geometry = nullptr;  ///< its half edges; instances share them
   glm::dmat4 worldFromObject{1.0};
-  std::uint64_t revision = 0;  ///< of mesh and place
+  std::uint64_t revision = 0;  ///< of mesh and place; no other caster has it
 };
 
 /// Welds casters and keeps what was welded while its members stay. Where all casters are closed it costs a

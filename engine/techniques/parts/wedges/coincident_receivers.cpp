@@ -73,7 +73,7 @@ bool overlap(const Triangle& a, const Triangle& b) {
 }  // namespace
 
 bool surfacesCoincide(const DrawItem& a, const DrawItem& b) {
-  const bool same = a.geometry == b.geometry;
+  const bool same = a.object == b.object;
   const std::vector<Triangle> first = trianglesOf(a), second = same ? first : trianglesOf(b);
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (std::size_t k = 0; k < (same ? i : second.size()); ++k) {

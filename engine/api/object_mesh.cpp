@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "api/object_mesh.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "scene/solidity.hpp"
+
+namespace halfshadow::api {
+
+Result<std::shared_ptr<ObjectMesh>> ObjectMesh::create(gl::Context& context, const MeshDesc& desc) {
+  auto checked = scene::buildMesh({.positions = desc.positions,
+                                   .positionStrideBytes = desc.positionStrideBytes,
+                                   .vertexCount = desc.vertexCount,
+                                   .indices = desc.indices,
+                                   .indexCount = desc.indexCount,
+                                   .normals = desc.normals,
+                                   .texcoords = desc.texcoords});
+  if (!checked) return checked.error();
+  auto made = std::make_shared<ObjectMesh>();
+  made->mesh_ = std::move(*checked);
+  made->recenteredBy_ = scene::recenter(made->mesh_);
+  made->bounds_ = scene::boundsOf(made->mesh_);
+  auto gpu = techniques::GpuMesh::create(context, made->mesh_);
+  if (!gpu) return gpu.error();
+  made->gpu_ = std::move(gpu).value();
+  return made;
+}
+
+Result<std::shared_ptr<ObjectMesh>> ObjectMesh::copy(gl::Context& context) const {
+  auto made = std::make_shared<ObjectMesh>();
+  made->mesh_ = mesh_;
+  made->recenteredBy_ = recenteredBy_;
+  made->bounds_ = bounds_;
+  made->solidity_ = solidity();
+  auto gpu = techniques::GpuMesh::create(context, mesh_);
+  if (!gpu) return gpu.error();
+  made->gpu_ = std::move(gpu).value();
+  return made;
+}
+
+Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals) {
+  (void)solidity();  // of the first positions
+  animated_ = true;
+  mesh_.positions = std::move(positions);
+  recenteredBy_ = scene::recenter(mesh_);
+  bounds_ = scene::boundsOf(mesh_);
+  supportingPlanes_.reset();
+  enclosing_ = {};
+  if (normals != nullptr) {
+    for (std::size_t i = 0; i < mesh_.normals.size(); ++i) mesh_.normals[i] = glm::make_vec3(normals + 3 * i);
+  }
+  if (!scene::turnShellsOutward(mesh_)) {
+    geometry_.positionsChanged();
+    return gpu_.update(context, mesh_);
+  }
+  // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
+  geometry_ = {};
+  auto gpu = techniques::GpuMesh::create(context, mesh_);
+  if (!gpu) return gpu.error();
+  gpu_ = std::move(gpu).value();
+  return {};
+}
+
+const scene::SupportingPlanes& ObjectMesh::support() const {
+  if (!supportingPlanes_) supportingPlanes_ = scene::supportingPlanesOf(mesh_, recenteredBy_);
+  return *supportingPlanes_;
+}
+
+const scene::EnclosingPoints& ObjectMesh::enclosing() const {
+  // A hull costs more than it saves where the next frame has other positions.
+  if (enclosing_.points.empty())
+    enclosing_ =
+        animated_ ? scene::EnclosingPoints{scene::usedVertices(mesh_), true} : scene::enclosingPoints(mesh_);
+  return enclosing_;
+}
+
+float ObjectMesh::solidity() const {
+  if (!solidity_) solidity_ = static_cast<float>(scene::solidity(mesh_));
+  return *solidity_;
+}
+
+namespace {
+/// Two lanes of multiply and rotate, with odd constants of random bits.
+class Hasher {
+ public:
+  void add(std::uint64_t value) {
+    low_ = std::rotl((low_ ^ value) * 0x9fb21c651e98df25ull, 29);
+    high_ = std::rotl((high_ + value) * 0xd6e8feb86659fd93ull, 37) ^ low_;
+  }
+  void add(const void* data, std::size_t byteCount) {
+    const auto* bytes = static_cast<const std::byte*>(data);
+    for (; byteCount >= 8; bytes += 8, byteCount -= 8) {
+      std::uint64_t word = 0;
+      std::memcpy(&word, bytes, 8);
+      add(word);
+    }
+    std::uint64_t rest = 0;
+    std::memcpy(&rest, bytes, byteCount);
+    add(rest);
+  }
+  std::uint64_t low() const { return low_; }
+  std::uint64_t high() const { return high_ * 0x9fb21c651e98df25ull ^ high_ >> 31; }
+
+ private:
+  std::uint64_t low_ = 0x3c79ac492ba7b653ull, high_ = 0x1c69b3f74ac4ae35ull;
+};
+}  // namespace
+
+MeshStore::Key MeshStore::keyOf(const MeshDesc& desc) {
+  Hasher hasher;
+  hasher.add(desc.vertexCount);
+  const auto* positions = reinterpret_cast<const std::byte*>(desc.positions);
+  for (std::size_t i = 0; i < desc.vertexCount; ++i) hasher.add(positions + i * desc.positionStrideBytes, 12);
+  hasher.add(desc.indexCount);
+  if (desc.indices != nullptr) hasher.add(desc.indices, desc.indexCount * sizeof *desc.indices);
+  // Which of the streams there are is told apart by a word before each.
+  hasher.add(desc.indices != nullptr ? 1u : 2u);
+  for (const auto& [values, width] : {std::pair(desc.normals, 12u), std::pair(desc.texcoords, 8u)}) {
+    hasher.add(values != nullptr ? 1u : 2u);
+    if (values != nullptr) hasher.add(values, std::size_t{desc.vertexCount} * width);
+  }
+  return {hasher.low(), hasher.high()};
+}
+
+Result<std::shared_ptr<ObjectMesh>> MeshStore::find(gl::Context& context, const MeshDesc& desc) {
+  // What has no positions is refused there.
+  if (desc.positions == nullptr || desc.positionStrideBytes < 12) return ObjectMesh::create(context, desc);
+  if (meshes_.size() >= sweepAt_) {
+    std::erase_if(meshes_, [](const auto& entry) { return entry.second.expired(); });
+    sweepAt_ = std::max<std::size_t>(64, 2 * meshes_.size());
+  }
+  std::weak_ptr<ObjectMesh>& known = meshes_[keyOf(desc)];
+  if (auto mesh = known.lock(); mesh && !mesh->animated()) return mesh;
+  auto made = ObjectMesh::create(context, desc);
+  if (made) known = *made;
+  return made;
+}
+
+}  // namespace halfshadow::api
