@@ -136,7 +136,9 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     frame.graph.noteSkipped(nameOf(index) + " " + used->info().id, standIn->reason + outcome);
     if (!hostEvaluates) used = techniqueNamed(standIn->id);
   }
-  auto shading = shadingOf(passes, index, *used, scene);
+  auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
+  if (!prepared) return prepared.error();
+  auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
   if (hostEvaluates) {
@@ -157,16 +159,45 @@ double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) c
   return cache.receiverFarDistance;
 }
 
-Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
-                                                             std::size_t index, techniques::Technique& used,
-                                                             const techniques::LightScene& scene) {
-  LightCache& cache = cacheOf(index);
+Status Engine::State::prepareLight(LightCache& cache, techniques::Technique& used,
+                                   const techniques::LightScene& scene) {
   if (cache.passesOf != &used) {
     cache.passesOf = &used;
     cache.passes = std::make_unique<techniques::LightPasses>(used.newPlanner());
   }
+  return cache.passes->prepare(scene);
+}
+
+Result<techniques::Technique*> Engine::State::preparedTechnique(Frame& frame, std::size_t index,
+                                                                techniques::Technique& asked,
+                                                                const techniques::LightScene& scene,
+                                                                std::span<const std::uint32_t> casters) {
+  LightCache& cache = cacheOf(index);
+  api::Refusal& refusal = cache.refusal;
+  techniques::Technique* instead = techniqueNamed("pcss-mip");
+  const bool refused = refusal.technique == &asked && refusal.settings == settings->revision() &&
+                       std::ranges::equal(refusal.casters, casters);
+  if (!refused) {
+    const Status planned = prepareLight(cache, asked, scene);
+    if (planned) return &asked;
+    // Only what was planned, on the CPU, can be planned otherwise; a host that evaluates asked for this one.
+    const bool hostEvaluates = frame.desc.output == Output::lightsOnly;
+    if (planned.error().code != ErrorCode::outOfMemory || hostEvaluates || &asked == instead)
+      return planned.error();
+    refusal = {.technique = &asked,
+               .casters = {casters.begin(), casters.end()},
+               .settings = settings->revision(),
+               .why = planned.error().message};
+  }
+  frame.graph.noteSkipped(nameOf(index) + " " + asked.info().id, refusal.why + "; pcss-mip takes the light");
+  if (Status s = prepareLight(cache, *instead, scene); !s) return s.error();
+  return instead;
+}
+
+Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
+                                                             std::size_t index) {
+  LightCache& cache = cacheOf(index);
   techniques::Device device{*context, *programs, shared};
-  if (Status s = cache.passes->prepare(scene); !s) return s.error();
   if (Status s = cache.passes->upload(device); !s) return s.error();
   return cache.passes->declare(passes);
 }

@@ -28,6 +28,16 @@
 
 namespace halfshadow {
 
+namespace api {
+/// Casters that a technique could not plan: they are not tried again in every frame.
+struct Refusal {
+  const techniques::Technique* technique = nullptr;
+  std::vector<std::uint32_t> casters;  ///< by index in the scene's lists
+  std::uint64_t settings = 0;          ///< their revision
+  std::string why;
+};
+}  // namespace api
+
 /// What is kept of a light between frames.
 struct LightCache {
   std::uint64_t key = 0;
@@ -41,6 +51,7 @@ struct LightCache {
   std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
   double receiverFarDistance = 0.0;
   api::LightSplit split;
+  api::Refusal refusal;
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };
@@ -135,10 +146,15 @@ struct Engine::State {
                       const planner::FramePlan& framePlan);
   /// Of the receivers in the light's fit; found again when the scene changed.
   double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
-  /// Prepares, uploads and declares the light's passes.
-  Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index,
-                                                techniques::Technique& technique,
-                                                const techniques::LightScene& scene);
+  /// The technique, or the one that takes its place where it cannot plan the scene; passes are prepared.
+  Result<techniques::Technique*> preparedTechnique(Frame& frame, std::size_t index,
+                                                   techniques::Technique& technique,
+                                                   const techniques::LightScene& scene,
+                                                   std::span<const std::uint32_t> casters);
+  Status prepareLight(LightCache& cache, techniques::Technique& technique,
+                      const techniques::LightScene& scene);
+  /// Uploads and declares the light's prepared passes.
+  Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index);
   // The frame (engine_frame.cpp).
   void declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets);
   Status declareReceiverPasses(Frame& frame);

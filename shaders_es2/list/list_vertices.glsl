@@ -18,8 +18,13 @@ uniform HS_HIGHP vec4 u_listPlace;
 #define HS_SMALL 1e-30
 #define HS_SAME 1e-30
 #endif
-// More than the longest list that any scene has needed; also keeps compilers from unrolling.
-#define HS_LONGEST_LIST 16384
+// As outlines::kLongestList: no list is longer. Also keeps compilers from unrolling. Some drivers make 16 bits of an
+// integer that is not highp, and end loops after 65,535 turns.
+#ifdef HS_NO_HIGHP
+#define HS_LONGEST_LIST 32767
+#else
+#define HS_LONGEST_LIST 65000
+#endif
 
 // Where a record is fetched from.
 HS_HIGHP vec2 hs_vertexAt(HS_HIGHP float column, HS_HIGHP float row) {
@@ -67,11 +72,14 @@ HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 center, HS_HIGHP vec3 receiver, HS_HIG
 
 // Whether a loop starts here (no edge leads here) or closes, and what ends: 1 the caster, 2 the sub-light, 3 the
 // list. `side`: the sub-light's, in half sides of the light. `oneSided`: the loop counts only where what it covers
-// is positive. `coarse`: its steps, of the list's.
+// is positive. `coarse`: its steps, of the list's. `firstSide`: what ends is one side of a sheet, and the other follows.
 struct HS_Tags {
   HS_HIGHP float starts, closes, ends;
 #ifdef HS_ONE_SIDED
   HS_HIGHP float oneSided, coarse;
+#endif
+#ifdef HS_SIDES
+  HS_HIGHP float firstSide;
 #endif
   HS_HIGHP vec2 side;
 };
@@ -120,6 +128,11 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   rest -= 4.0 * behind;
 #endif
   tags.ends = rest;
+#ifdef HS_SIDES
+  // No loop starts where one ends.
+  tags.firstSide = tags.starts * step(0.5, rest);
+  tags.starts -= tags.firstSide;
+#endif
   at = hs_recordAfter(at);
 #ifdef HS_BEHIND_FACETS
   if (behind > 0.5) return hs_behindFacet(256.0 * value.x);

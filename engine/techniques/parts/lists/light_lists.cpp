@@ -20,6 +20,16 @@ constexpr double kEvenSlope = 2.0, kSqueezedFrom = 16.0;
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
+/// Lists are made so often at most, each time with larger tiles.
+constexpr int kMostAttempts = 6;
+
+Error tooManyVertices(const ListRequest& request) {
+  return {
+      ErrorCode::outOfMemory,
+      "the silhouettes' vertex lists exceed what fragments can walk or the largest texture holds; lower " +
+          std::string(request.tilesKey) + ", use simpler casters, or a technique of shadow maps"};
+}
+
 /// Direction of a pixel's ray, in homogeneous (t, i), as x · columns[0] + y · columns[1] + columns[2] with x
 /// and y in [0, 1] over the view.
 std::array<glm::vec4, 3> pixelRays(const View& view, const glm::dmat4& homogeneousFromWorld) {
@@ -158,18 +168,19 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
     std::vector<std::uint64_t> casters;
     for (const DrawItem& caster : scene.casters) casters.push_back(caster.object);
     // Whatever stood here before must not show in the picture.
-    if (casters != casters_) doublings_ = 0;
+    if (casters != casters_) doublings_ = casterDoublings_ = 0;
     casters_ = std::move(casters);
   }
   const double finest = shadowSize_ / request.tiles;
   const device::Limits& limits = scene.capabilities.limits;
-  // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
-  const int maxRows =
-      std::min({limits.textureSize, 65536, scene.capabilities.has(device::Capability::highp) ? 65536 : 1024});
-  tileSize_ = finest * std::exp2(doublings_);
   bool changed = imageKey_ == 0;
+  const bool highp = scene.capabilities.has(device::Capability::highp);
+  // The column and row of a list take 24 bits; without highp, coordinates of 1024 rows are exact.
+  const int maxRows = std::min({limits.textureSize, 65536, highp ? 65536 : 1024});
+  const std::uint32_t longest = highp ? outlines::kLongestList : outlines::kLongestListWithoutHighp;
   const std::size_t mostRecords = static_cast<std::size_t>(maxRows) * kRecordsPerRow;
-  for (int attempt = 0; attempt < 8; ++attempt) {
+  for (int attempt = 0; attempt < kMostAttempts; ++attempt) {
+    std::size_t casterRecords = 0;
     std::vector<std::uint64_t> used;
     std::vector<ReceiverLists> receivers;
     std::size_t records = 0;
@@ -182,19 +193,22 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
         cached.seenFromBehind = seenFromBehind;
         cached.casts = item.casts;
         const outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item)};
-        cached.tiles =
-            receiverTiles({.mesh = item.sourceMesh,
-                           .worldFromObject = item.worldFromObject,
-                           .closed = !seenFromBehind,
-                           .withPatches = receiver.ownObject != outlines::kNoObject},
-                          loops_->space(), shadows_, (item.casts ? kCasterTileShare : 1.0) * tileSize_,
-                          kMaxTiles, loops_->minHeight(), scale_);
+        cached.tiles = receiverTiles({.mesh = item.sourceMesh,
+                                      .worldFromObject = item.worldFromObject,
+                                      .closed = !seenFromBehind,
+                                      .withPatches = receiver.ownObject != outlines::kNoObject},
+                                     loops_->space(), shadows_,
+                                     item.casts ? kCasterTileShare * finest * std::exp2(casterDoublings_)
+                                                : finest * std::exp2(doublings_),
+                                     kMaxTiles, loops_->minHeight(), scale_);
         cached.lists = tileLists(loops_->subLights(), surfaces_, cached.tiles, receiver, request.edges,
                                  mostRecords - records);
         changed = true;
       }
       // What does not fit is not built to its end.
       records += cached.lists.records.size();
+      if (item.casts) casterRecords += cached.lists.records.size();
+      if (cached.lists.longestList > longest) return tooManyVertices(request);
       if (cached.lists.cutShort || records > mostRecords) break;
       used.push_back(item.object);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
@@ -212,19 +226,20 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
       for (std::size_t i = 0; i < used.size(); ++i) receivers_[used[i]].firstTexel = encoded.firstTexel[i];
       encoded_ = std::move(inSomeOrder);
       // The next lists are tried finer where these would have fitted.
-      if (doublings_ > 0 && encoded.rows * kFinerGrowth < static_cast<std::size_t>(maxRows)) --doublings_;
+      int& doublings = casterDoublings_ > 0 ? casterDoublings_ : doublings_;
+      if (doublings > 0 && encoded.rows * kFinerGrowth < static_cast<std::size_t>(maxRows)) --doublings;
       return {};
     }
-    // Half as many tiles a side: lists grow by less than their number shrinks.
-    ++doublings_;
-    tileSize_ *= 2.0;
-    receivers_.clear();
+    // Half as many tiles a side: lists grow by less than their number shrinks. Those of casters' own surfaces
+    // hold faces, and what lies on the ground must not pay for them.
+    const bool ofCasters = 2 * casterRecords > records;
+    ++(ofCasters ? casterDoublings_ : doublings_);
+    std::erase_if(receivers_, [&](const auto& kept) { return kept.second.casts == ofCasters; });
     plan.note(std::string(request.tilesKey),
-              "the lists exceed the largest texture; tiles are twice as large");
+              std::string("the lists exceed the largest texture; tiles are twice as large") +
+                  (ofCasters ? " on casters" : ""));
   }
-  return Error{ErrorCode::outOfMemory,
-               "the silhouettes' vertex lists exceed this device's largest texture; lower " +
-                   std::string(request.tilesKey)};
+  return tooManyVertices(request);
 }
 
 void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
@@ -244,7 +259,10 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
   });
   const bool behind = std::ranges::any_of(
       receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
+  const bool sides =
+      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.sides; });
   if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
+  if (sides) shading.defines.push_back("HS_SIDES");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");
   shading.mapFromWorld = loops_->space().homogeneousFromWorld();

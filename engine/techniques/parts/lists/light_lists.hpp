@@ -66,8 +66,8 @@ class LightLists {
   outlines::TangentRect shadows_;
   outlines::TileScale scale_;
   double shadowSize_ = 1.0;  ///< the longer side of where shadows meet receivers, on that scale
-  double tileSize_ = 1.0;
-  int doublings_ = 0;  ///< of the tiles' size, so that all lists fit; kept while the casters are the same
+  /// Of the tiles' size, so that all lists fit; kept while the casters are the same.
+  int doublings_ = 0, casterDoublings_ = 0;
   std::vector<std::uint64_t> casters_;           ///< by DrawItem::object
   std::map<std::uint64_t, Receiver> receivers_;  ///< by DrawItem::object
   std::vector<std::uint64_t> encoded_;           ///< those in the textures
