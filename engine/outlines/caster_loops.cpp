@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "outlines/caster_clusters.hpp"
+
 namespace halfshadow::outlines {
 namespace {
 /// Beyond this share of the receivers' range of reciprocal heights, and of their rounding, a vertex is
@@ -236,6 +238,7 @@ void CasterLoops::clear() {
   enclosesLight = isRoom = seenInside = false;
   deepest = 0.0f;
   firstLayer = layerCount = 0;
+  layersBefore = false;
   object = part = 0;
   turnedAway = false;
   convex = true;
@@ -250,6 +253,32 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
   }
 }
 
+namespace {
+/// Entries that share layers are near receivers, or behind none of them, together.
+void boundTogether(std::span<CasterLoops> casters) {
+  for (std::size_t first = 0, end = 0; first < casters.size(); first = end) {
+    for (end = first + 1; end < casters.size() && casters[end].layersBefore;) ++end;
+    const std::span<CasterLoops> entries = casters.subspan(first, end - first);
+    CasterLoops& all = entries.front();
+    for (const CasterLoops& entry : entries) {
+      all.low = glm::min(all.low, entry.low);
+      all.high = glm::max(all.high, entry.high);
+      all.deepest = std::min(all.deepest, entry.deepest);
+    }
+    for (CasterLoops& entry : entries)
+      entry.low = all.low, entry.high = all.high, entry.deepest = all.deepest;
+  }
+}
+}  // namespace
+
+const CasterCluster::Stage* CasterCluster::stageFor(float receiversHighestI) const {
+  const Stage* last = nullptr;
+  for (const Stage& stage : stages) {
+    if (stage.behindI >= receiversHighestI) last = &stage;
+  }
+  return last;
+}
+
 SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
                       const ListSpace& space, std::span<const RoomPart> seenInside) {
@@ -262,6 +291,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
     CasterLoops& caster = (isLayer ? result.layers : result.casters).emplace_back();
     caster.firstLayer = static_cast<std::uint32_t>(result.layers.size());
     caster.layerCount = source.layerCount;
+    caster.layersBefore = source.layersBefore;
     caster.enclosesLight = source.enclosesLight;
     for (std::uint32_t l = source.firstLoop; l < source.firstLoop + source.loopCount; ++l) {
       loop.clear();
@@ -282,6 +312,8 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
       caster.enclosesLight = false;
     }
   }
+  boundTogether(result.casters);
+  result.clusters = casterClusters(silhouettes, result, space);
   return result;
 }
 

@@ -38,6 +38,7 @@ struct CasterLoops {
   /// In SubLightLoops::layers: this caster's single layers, which take its place for receivers behind all of
   /// it; none where it does not hide itself.
   std::uint32_t firstLayer = 0, layerCount = 0;
+  bool layersBefore = false;  ///< another entry of its part, before this one, has the layers of both
   std::uint32_t object = 0, part = 0;
   bool turnedAway = false;  ///< the side of a sheet that looks away from the light
   /// Its loops tell what it covers for receivers that are not behind all of it, too, unless they are its own.
@@ -47,11 +48,28 @@ struct CasterLoops {
   void addLoop(std::span<const glm::vec3> loop);
 };
 
+/// Casters that touch each other, and hide some of each other from a sub-light's centre: a head under its
+/// hair, the boards of a fence. Their edges lie over each other on the light, so that shares of it do not
+/// multiply; what they cover together does.
+struct CasterCluster {
+  /// For receivers behind the first so many of the members.
+  struct Stage {
+    std::uint32_t members = 0;
+    float behindI = 0.0f;  ///< no point of these has a smaller i
+    CasterLoops together;
+  };
+  std::vector<std::uint32_t> members;  ///< in SubLightLoops::casters; those come first that end first
+  std::vector<Stage> stages;           ///< with more and more members
+  /// The last one whose members all of the receivers are behind, or null.
+  const Stage* stageFor(float receiversHighestI) const;
+};
+
 /// All casters of one sub-light.
 struct SubLightLoops {
   SubLight light;
   std::vector<CasterLoops> casters;
   std::vector<CasterLoops> layers;
+  std::vector<CasterCluster> clusters;
 };
 /// `silhouettes` with layers alongside (scene::LayerSplit), of `casters` in their order.
 /// `seenInside`: parts inside which receivers may be seen.

@@ -107,7 +107,7 @@ TangentBox blockBox(const ReceiverTiles& tiles, int x0, int y0) {
 /// What stands for a caster where all receivers are behind it: its layers, or itself where it does not hide
 /// itself.
 void forEachLayer(const SubLightLoops& loops, const CasterLoops& caster, auto&& use) {
-  if (caster.layerCount == 0) use(caster);
+  if (caster.layerCount == 0 && !caster.layersBefore) use(caster);
   for (std::uint32_t l = 0; l < caster.layerCount; ++l) use(loops.layers[caster.firstLayer + l]);
 }
 
@@ -148,7 +148,16 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     result.near.push_back(std::move(near));
     return true;
   };
+  thread_local std::vector<std::uint8_t> taken;
+  taken.assign(loops.casters.size(), 0);
+  for (const CasterCluster& cluster : loops.clusters) {
+    const CasterCluster::Stage* stage = cluster.stageFor(receivers.iHigh);
+    if (stage == nullptr) continue;
+    add(stage->together);
+    for (std::uint32_t k = 0; k < stage->members; ++k) taken[cluster.members[k]] = 1;
+  }
   for (const CasterLoops& caster : loops.casters) {
+    if (taken[static_cast<std::size_t>(&caster - loops.casters.data())] != 0) continue;
     around = nullptr;
     const glm::vec3 low(glm::vec2(caster.low), deepestOf(caster));
     if (low.z >= receivers.iHigh) {
@@ -250,8 +259,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
           partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
       add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
+    const NearSurface* firstSide = nullptr;  // of the sheet whose first side ends with the last record
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
       const auto& [caster, surface, choice, facets, around] = block[s].near[c];
+      const std::size_t own = records.size();
       if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
         full = true;
       } else if (deepestOf(*caster) >= receivers.iHigh) {
@@ -262,8 +273,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         });
       } else {
         // Only of its own tiles the patches are known.
-        const bool own = choice == FacetChoice::asReceiversSee;
-        const OwnHorizon horizon = own ? ownHorizon(*surface, loops.light, set) : OwnHorizon::unknown;
+        const bool isOwn = choice == FacetChoice::asReceiversSee;
+        const OwnHorizon horizon = isOwn ? ownHorizon(*surface, loops.light, set) : OwnHorizon::unknown;
         if (horizon != OwnHorizon::unknown) {
           full = horizon == OwnHorizon::behind;
           if (horizon != OwnHorizon::across) continue;
@@ -272,7 +283,11 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
           continue;
         }
         add(simplify(*surface, facets, loops.light,
-                     own ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
+                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
+        // The sides of a sheet cover the same ground.
+        const bool sided = !surface->closed && !isOwn && records.size() > own;
+        if (sided && firstSide == surface) records[own - 1].firstSide = true;
+        if (sided) firstSide = surface;
       }
     }
     if (full) {
@@ -332,6 +347,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
   lists.oneSided = std::ranges::any_of(lists.records, &ListRecord::oneSided);
   lists.behindFacets = std::ranges::any_of(
       lists.records, [](const ListRecord& record) { return record.behindFacet != ListRecord::kVertex; });
+  lists.sides = std::ranges::any_of(lists.records, &ListRecord::firstSide);
   lists.amongReceivers = std::ranges::any_of(lists.tiles, &TileList::amongReceivers);
   return lists;
 }

@@ -27,7 +27,12 @@ struct ListRecord {
   std::int8_t behindFacet = kVertex;
   static constexpr std::int8_t kVertex = -1;
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
+  /// With End::caster: what follows is the other side of the same sheet, and the larger of both counts.
+  bool firstSide = false;
 };
+
+/// Fragments walk no further: HS_LONGEST_LIST in list_vertices.glsl.
+inline constexpr std::uint32_t kLongestList = 65000, kLongestListWithoutHighp = 32767;
 
 struct TileList {
   std::uint32_t first = 0, count = 0;  ///< in TileLists::records
@@ -47,6 +52,7 @@ struct TileLists {
   bool oneSided = false;         ///< some record is
   bool amongReceivers = false;   ///< some tile is
   bool behindFacets = false;     ///< some record is of what lies behind a facet
+  bool sides = false;            ///< some record ends a first side
   bool cutShort = false;         ///< there would be too many records: the rest is missing
 };
 

@@ -48,14 +48,16 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
   // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
   const Turn turn = glm::determinant(linear) > 0.0 ? Turn::reverse : Turn::keep;
   for (const Silhouette::Part& part : silhouette.parts) {
-    LightSilhouettes::Caster placed{.object = caster.object,
-                                    .part = part.part,
-                                    .firstLoop = static_cast<std::uint32_t>(result.loops.size()),
-                                    .low = glm::vec3(1e30f),
-                                    .high = glm::vec3(-1e30f),
-                                    .closed = caster.mesh->parts()[part.part].closed,
-                                    .turnedAway = part.turnedAway,
-                                    .enclosesLight = part.enclosesLight};
+    LightSilhouettes::Caster placed{
+        .object = caster.object,
+        .part = part.part,
+        .firstLoop = static_cast<std::uint32_t>(result.loops.size()),
+        .low = glm::vec3(1e30f),
+        .high = glm::vec3(-1e30f),
+        .partWorld = transformed(caster.worldFromObject, caster.mesh->parts()[part.part].bounds),
+        .closed = caster.mesh->parts()[part.part].closed,
+        .turnedAway = part.turnedAway,
+        .enclosesLight = part.enclosesLight};
     const HeightRange range = heightRange(caster.mesh->parts()[part.part].bounds, lightFromObject, minHeight);
     if (range == HeightRange::through) {
       cutLoops.clear();

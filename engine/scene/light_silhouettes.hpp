@@ -57,7 +57,10 @@ struct LightSilhouettes {
     /// With LayerSplit::alongside: so many of the next entries are this one's layers, for receivers behind
     /// it.
     std::uint32_t layerCount = 0;
+    /// With LayerSplit::alongside: another entry of its part, before this one, has the layers of both.
+    bool layersBefore = false;
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds of its loops in (a, b, h)
+    Bounds partWorld;                 ///< of its part's surface
     /// No point of its part is farther from the light: the inside of a bowl is, than the loops. Receivers
     /// behind this are behind all of it.
     float deepest = 0.0f;

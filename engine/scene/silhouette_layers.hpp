@@ -9,12 +9,13 @@
 namespace halfshadow::scene {
 
 /// Replaces the entries of `silhouettes`, seen from the source point, by their layers; nothing happens with
-/// LayerSplit::none. Where loops cross they are joined the other way round, with a step along the ray from
-/// the source. Of the second and further layers, loops below 1 % of the first layer's area are dropped.
-/// Measured on two models of one mesh each (a person, a cat), light of half size 1, receivers behind,
-/// penumbra RMSE: sum of all loops seen from the centre .064, outline .013; with four sub-lights of 2 × 2
-/// cells each .0084, layers .0040, outline .0052 with half the vertices.
-/// Based on: Seifert, "Über das Geschlecht von Knoten", 1935 (joining strands at crossings).
+/// LayerSplit::none. The sides of a sheet have layers together (see CoveredLevels). Where loops cross they
+/// are joined the other way round, with a step along the ray from the source. Of the second and further
+/// layers, loops below 1 % of the first layer's area are dropped. Measured on two models of one mesh each (a
+/// person, a cat), light of half size 1, receivers behind, penumbra RMSE: sum of all loops seen from the
+/// centre .064, outline .013; with four sub-lights of 2 × 2 cells each .0084, layers .0040, outline .0052
+/// with half the vertices. Based on: Seifert, "Über das Geschlecht von Knoten", 1935 (joining strands at
+/// crossings).
 void splitLayers(LightSilhouettes& silhouettes, double sourceA, double sourceB, LayerSplit split);
 
 }  // namespace halfshadow::scene

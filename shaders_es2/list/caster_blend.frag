@@ -24,14 +24,28 @@ HS_Occlusion hs_ofCaster() {
   hs_startCasterWalk(walk);
   HS_Sums sums;
   hs_clearSums(sums);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+#ifdef HS_SIDES
+  HS_Occlusion firstSide = hs_nothing();
+#endif
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!reaches) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
     hs_casterWalk(walk, sums, projected, tags);
+#ifdef HS_SIDES
+    if (tags.firstSide > 0.5) {
+      firstSide = hs_occlusion(sums);
+      hs_clearSums(sums);
+      continue;
+    }
+#endif
     if (tags.ends > 0.5) break;
   }
+#ifdef HS_SIDES
+  return hs_largerOf(firstSide, hs_occlusion(sums));
+#else
   return hs_occlusion(sums);
+#endif
 }
 
 // Rounded here, and stored an eighth above the step, as on truncating targets.

@@ -15,11 +15,18 @@ void main() {
   HS_CasterWalk walk;
   hs_startCasterWalk(walk);
   HS_Cells covered = HS_CELLS_ALL(0.0);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+#ifdef HS_SIDES
+  HS_Cells otherSide = HS_CELLS_ALL(0.0);
+#endif
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!reaches) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
     hs_casterWalk(walk, covered, projected, tags);
+#ifdef HS_SIDES
+    hs_joinSides(covered, otherSide, step(0.5, tags.ends), tags.firstSide);
+    if (tags.firstSide > 0.5) continue;
+#endif
     if (tags.ends > 0.5) break;
   }
 #if HS_CELLS == 4

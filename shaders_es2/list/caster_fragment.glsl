@@ -5,6 +5,7 @@
 // cut at the receiver's height. Each volume answers for one kind. Needs receiver_position.glsl and list_vertices.glsl.
 varying HS_HIGHP vec3 v_casterList;   // column and row of the list; i that splits receivers, in steps: whole numbers
 varying HS_HIGHP vec4 v_casterSides;  // low a and b, high a and b: change over height of where shadows end
+varying HS_HIGHP vec2 v_casterStage;  // other volumes answer for receivers with an i above x, or not above y
 uniform HS_HIGHP vec4 u_casterLight;  // low and high corner of the part of the light that is meant
 // Of the receiver's place, whose last coordinate is its height, or z of homogeneous (t, i) where heights are about equal:
 // height = x + y · last, z = z + w · last.
@@ -32,6 +33,8 @@ bool hs_casterReaches(out HS_HIGHP vec2 at, out HS_HIGHP vec3 origin) {
   HS_HIGHP vec3 center = hs_beginList(at);
   // A surface must not be cut by the silhouettes of its own edges, whose vertices are known to half a step.
   HS_HIGHP float height = max(u_casterPlace.x + u_casterPlace.y * position.z, 0.0);
+  HS_HIGHP float plain = (u_casterPlace.z + u_casterPlace.w * position.z) / max(height, u_listPlace.x);
+  bool staged = plain <= v_casterStage.x && plain > v_casterStage.y;
   HS_HIGHP vec2 beside = (abs(position.xy) + hs_step.x / hs_step.z) * u_liftSize.xy;
   HS_HIGHP float stepSize = hs_step.z * height * (beside.x + beside.y + height * u_lightUnit);
   HS_HIGHP float rounding = u_liftSize.w * dot(abs(position - u_receiverEye.xyz), u_liftSize.xyz);
@@ -46,5 +49,5 @@ bool hs_casterReaches(out HS_HIGHP vec2 at, out HS_HIGHP vec3 origin) {
 #endif
   HS_HIGHP vec4 inside = vec4(receiver.xy - receiver.z * u_casterLight.zw - v_casterSides.xy,
                               v_casterSides.zw - receiver.xy + receiver.z * u_casterLight.xy);
-  return behind && height > u_listPlace.x && min(min(inside.x, inside.y), min(inside.z, inside.w)) > 0.0;
+  return staged && behind && height > u_listPlace.x && min(min(inside.x, inside.y), min(inside.z, inside.w)) > 0.0;
 }

@@ -123,6 +123,24 @@ void hs_foldCaster(inout HS_Cells visible, inout HS_Cells covered, HS_HIGHP floa
 #endif
 }
 
+#ifdef HS_SIDES
+// Before a caster is folded: of a sheet's two sides the one that covers more counts. `other` keeps the first.
+void hs_joinSides(inout HS_Cells covered, inout HS_Cells other, HS_HIGHP float fold, HS_HIGHP float firstSide) {
+#if HS_CELLS == 32
+  covered.lower = mix(covered.lower, max(covered.lower, other.lower), fold);
+  covered.upper = mix(covered.upper, max(covered.upper, other.upper), fold);
+  other.lower = mix(other.lower * (1.0 - fold), covered.lower, firstSide);
+  other.upper = mix(other.upper * (1.0 - fold), covered.upper, firstSide);
+  covered.lower *= 1.0 - firstSide;
+  covered.upper *= 1.0 - firstSide;
+#else
+  covered = mix(covered, max(covered, other), fold);
+  other = mix(other * (1.0 - fold), covered, firstSide);
+  covered *= 1.0 - firstSide;
+#endif
+}
+#endif
+
 // Visible share of the square; all cells become visible again where `take` is 1.
 HS_HIGHP float hs_takeSquare(inout HS_Cells visible, HS_HIGHP float take) {
 #if HS_CELLS == 32

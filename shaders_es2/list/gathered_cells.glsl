@@ -16,10 +16,13 @@ HS_HIGHP float hs_gatheredLight() {
   HS_HIGHP vec3 origin = hs_enterList(at);
   HS_Cells visible = HS_CELLS_ALL(1.0);
   HS_Cells covered = HS_CELLS_ALL(0.0);
+#ifdef HS_SIDES
+  HS_Cells otherSide = HS_CELLS_ALL(0.0);
+#endif
 #ifndef HS_CASTING_RECEIVER
   HS_Walk walk;
   hs_startWalk(walk);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
 #ifdef HS_AMONG_RECEIVERS
     if (hs_among) break;
 #endif
@@ -27,6 +30,9 @@ HS_HIGHP float hs_gatheredLight() {
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
     hs_walk(walk, covered, projected, tags);
+#ifdef HS_SIDES
+    hs_joinSides(covered, otherSide, step(HS_FOLD_AT, tags.ends), tags.firstSide);
+#endif
     hs_foldCaster(visible, covered, step(HS_FOLD_AT, tags.ends));
     hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
     if (tags.ends > 2.5) break;
@@ -35,7 +41,7 @@ HS_HIGHP float hs_gatheredLight() {
 #ifdef HS_CUTS
   HS_CutWalk cutWalk;
   hs_startCutWalk(cutWalk);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
 #ifdef HS_CASTING_RECEIVER
     if (!hs_listed) break;
 #else
@@ -44,6 +50,9 @@ HS_HIGHP float hs_gatheredLight() {
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
     hs_cutWalk(cutWalk, covered, projected, tags);
+#ifdef HS_SIDES
+    hs_joinSides(covered, otherSide, step(HS_FOLD_AT, tags.ends), tags.firstSide);
+#endif
     hs_foldCaster(visible, covered, step(HS_FOLD_AT, tags.ends));
     hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
     if (tags.ends > 2.5) break;

@@ -63,3 +63,21 @@ HS_Occlusion hs_merge(HS_Occlusion a, HS_Occlusion b) {
 #endif
   return q;
 }
+
+#ifdef HS_SIDES
+// Two sides of a sheet: the one that occludes more counts, in a rectangle around both.
+HS_Occlusion hs_largerOf(HS_Occlusion a, HS_Occlusion b) {
+  HS_Occlusion q;
+  q.share = max(a.share, b.share);
+  q.left = min(a.left, b.left);
+  q.right = max(a.right, b.right);
+  q.bottom = min(a.bottom, b.bottom);
+  q.top = max(a.top, b.top);
+#ifdef HS_CENTRES
+  HS_HIGHP vec4 second = step(a.share, b.share);
+  q.centreX = mix(a.centreX, b.centreX, second);
+  q.centreY = mix(a.centreY, b.centreY, second);
+#endif
+  return q;
+}
+#endif

@@ -21,7 +21,7 @@ float halfshadow_class() {
 HS_HIGHP float hs_sumOfShares(HS_HIGHP vec2 at, HS_HIGHP vec3 origin) {
   HS_HIGHP float share = 0.0;
   HS_HIGHP vec2 last = vec2(0.0);
-  for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!hs_apart) break;
     HS_Tags tags;
     HS_HIGHP vec2 point = hs_onLight(hs_nextVertex(at, origin, tags));
@@ -35,20 +35,39 @@ HS_HIGHP float hs_sumOfShares(HS_HIGHP vec2 at, HS_HIGHP vec3 origin) {
 HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
   HS_Occlusion all = hs_nothing();
   HS_HIGHP float ends = listed ? 0.0 : 3.0;
-  for (int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
+#ifdef HS_SIDES
+  HS_Occlusion firstSide = hs_nothing();
+#endif
+  for (HS_HIGHP int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
     if (ends > 2.5) break;
     HS_Sums sums;
     hs_clearSums(sums);
+#ifdef HS_SIDES
+    HS_HIGHP float sideEnds = 0.0;
+#endif
     HS_Walk walk;
     hs_startWalk(walk);
-    for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+    for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
       ends = tags.ends;
+#ifdef HS_SIDES
+      sideEnds = tags.firstSide;
+#endif
       hs_walk(walk, sums, projected, tags);
       if (ends > 0.5) break;
     }
+#ifdef HS_SIDES
+    HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
+    firstSide = hs_nothing();
+    if (sideEnds > 0.5) {
+      firstSide = both;
+    } else {
+      all = hs_merge(all, both);
+    }
+#else
     all = hs_merge(all, hs_occlusion(sums));
+#endif
   }
   return all;
 }
@@ -57,20 +76,39 @@ HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
 #ifdef HS_CUTS
 HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed, HS_Occlusion all) {
   HS_HIGHP float ends = listed ? 0.0 : 3.0;
-  for (int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
+#ifdef HS_SIDES
+  HS_Occlusion firstSide = hs_nothing();
+#endif
+  for (HS_HIGHP int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
     if (ends > 2.5) break;
     HS_Sums sums;
     hs_clearSums(sums);
+#ifdef HS_SIDES
+    HS_HIGHP float sideEnds = 0.0;
+#endif
     HS_CutWalk walk;
     hs_startCutWalk(walk);
-    for (int i = 0; i < HS_LONGEST_LIST; ++i) {
+    for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
       ends = tags.ends;
+#ifdef HS_SIDES
+      sideEnds = tags.firstSide;
+#endif
       hs_cutWalk(walk, sums, projected, tags);
       if (ends > 0.5) break;
     }
+#ifdef HS_SIDES
+    HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
+    firstSide = hs_nothing();
+    if (sideEnds > 0.5) {
+      firstSide = both;
+    } else {
+      all = hs_merge(all, both);
+    }
+#else
     all = hs_merge(all, hs_occlusion(sums));
+#endif
   }
   return all;
 }

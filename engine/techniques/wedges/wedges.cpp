@@ -52,12 +52,17 @@ std::vector<WedgeGroup> wholeThenBatches(const outlines::WedgePieces& pieces) {
   return groups;
 }
 
+/// Among casters that were taken together what they cover as one says nothing.
+OwnSurfaces listedSurfaces(const WedgeVolumes& volumes) {
+  return volumes.takenTogether ? OwnSurfaces::all : OwnSurfaces::hollow;
+}
+
 class AdditivePlanner final : public LightPlanner {
  public:
   Status plan(const LightScene& scene, PassPlan& plan) override {
     routes_.planSums(scene, plan, scene.settings.choice("wedges.route"));
     return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1},
-                           OwnSurfaces::hollow);
+                           listedSurfaces(routes_.volumes(scene)));
   }
 
  private:
@@ -87,7 +92,7 @@ class ProbabilisticPlanner final : public LightPlanner {
     }
     plan.shading = screenShading(scene, visibility, 0.0f);
     return addOwnReceivers(scene, plan, loops_, lists_, "wedges-probabilistic.tiles",
-                           {&outlines::kWholeLight, 1}, OwnSurfaces::hollow);
+                           {&outlines::kWholeLight, 1}, listedSurfaces(volumes));
   }
 
  private:

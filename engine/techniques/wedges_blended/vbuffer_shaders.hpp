@@ -29,7 +29,9 @@ inline ShaderAxis blendAxis() {
 
 inline std::vector<ShaderFamily> vbufferShaders() {
   return joined({wedgeShaders(),
-                 {{"list/caster_volume.vert", "list/caster_blend.frag", {blendAxis(), castingAxis()}},
+                 {{"list/caster_volume.vert",
+                   "list/caster_blend.frag",
+                   {blendAxis(), castingAxis(), flag("HS_SIDES", {"HS_CASTING_RECEIVER"})}},
                   fullscreen("list/vbuffer_add.frag")},
                  listReceiverFamilies("list/wedges_blended.frag", ListedIn::always, {flag("HS_CENTRES")})});
 }

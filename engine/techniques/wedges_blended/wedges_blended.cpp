@@ -104,7 +104,7 @@ class BlendedPlanner final : public LightPlanner {
     }
     const WedgeVolumes& volumes = routes_.volumes(scene);
     if (meetKey_ != volumes.contentKey) {
-      meet_ = castersMeet(volumes);
+      meet_ = volumes.takenTogether || castersMeet(volumes);
       meetKey_ = volumes.contentKey;
     }
     // Without highp the lists' fixed-point vertices are the more exact way.

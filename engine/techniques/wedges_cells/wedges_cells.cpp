@@ -44,8 +44,9 @@ class WedgesCells final : public Technique {
             "exact up to storage for one convex caster as each sub-light's centre sees it; the order "
             "of casters does not matter",
         .knownFailures =
-            "casters that overlap within one cell count as independent, and layers of one caster add up "
-            "there; lists of faces grow with the triangles of casters that are not convex"};
+            "casters that overlap within one cell without touching count as independent; lists of faces grow "
+            "with the triangles of casters that are not convex: where they exceed what fragments can walk, "
+            "pcss-mip takes the light"};
     return info;
   }
   std::vector<SettingInfo> settings() const override {

@@ -21,6 +21,7 @@ struct Vertex {
   glm::vec3 corner;
   glm::vec3 list;   ///< column, row, split in steps
   glm::vec4 sides;  ///< low a and b, high a and b over height
+  glm::vec2 stage;  ///< receivers with an i of no more than x, and more than y
 };
 
 double farthestReceiver(const LightScene& scene, const LightLoops& loops) {
@@ -55,7 +56,8 @@ std::vector<Vertex> vertexStream(const CasterVolumes& volumes, const VolumeReach
     Vertex vertex{.corner = {},
                   .list = glm::vec3(record % kRecordsPerRow, record / kRecordsPerRow,
                                     std::round((volume.splitI - placed.center.z) / placed.step.z)),
-                  .sides = glm::vec4(glm::dvec4(low, high))};
+                  .sides = glm::vec4(glm::dvec4(low, high)),
+                  .stage = glm::vec2(volume.fromI, volume.untilI)};
     for (const double h : {volume.from, volume.end}) {
       for (const glm::dvec3& corner : volumeCorners(extent, h, reach)) {
         vertex.corner = corner - base;
@@ -153,6 +155,7 @@ void CasterDraws::addDraws(const LightScene& scene, PassPlan& plan, PlannedPass&
   std::vector<std::string> defines = request.defines;
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
     if (part == WedgePart::beside) defines.push_back("HS_CASTING_RECEIVER");
+    if (part == WedgePart::beside && volumes_.lists.sides) defines.push_back("HS_SIDES");
     if (!wanted(part)) continue;
     PlannedDraw draw{.program = plan.addProgram({"list/caster_volume.vert", request.fragmentFile, defines})};
     addReceiverPosition(draw, scene.screen, depth, rays);
@@ -197,7 +200,8 @@ void CasterDraws::addPart(PlannedPass& pass, const PlannedDraw& draw, const View
       added.what =
           BufferDraw{.attributes = {attribute(device::VertexAttribute::position, 3, 0),
                                     attribute(device::VertexAttribute::extra0, 3, offsetof(Vertex, list)),
-                                    attribute(device::VertexAttribute::extra1, 4, offsetof(Vertex, sides))},
+                                    attribute(device::VertexAttribute::extra1, 4, offsetof(Vertex, sides)),
+                                    attribute(device::VertexAttribute::extra2, 2, offsetof(Vertex, stage))},
                      .indices = indicesInPlan_,
                      .indexType = device::IndexType::uint16,
                      .count = now * kVolumeIndices};

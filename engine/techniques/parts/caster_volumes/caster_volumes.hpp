@@ -20,6 +20,8 @@ struct CasterVolume {
   double from = 0.0, end = 0.0;
   std::uint32_t list = 0;  ///< in CasterVolumes::lists.tiles
   float splitI = 0.0f;     ///< reciprocal height up to which receivers are behind the whole caster
+  /// Others answer for receivers with an i above `fromI`, or not above `untilI`: see outlines::CasterCluster.
+  float fromI = 1e30f, untilI = -1e30f;
 };
 
 struct CasterVolumes {
@@ -34,7 +36,8 @@ enum class Batching {
   disjoint  ///< volumes of one sub-light and batch have no receiver in common
 };
 
-/// Every caster has a volume for receivers at its own heights; behind it, it has another, or its layers have.
+/// Every caster has a volume for receivers at its own heights, the sides of a sheet one together; behind it, it
+/// has another, or its layers have, up to where its cluster does.
 CasterVolumes casterVolumes(std::span<const outlines::SubLightLoops> subLights,
                             const outlines::ListSpace& space, const VolumeReach& reach, Batching batching);
 

@@ -18,7 +18,7 @@ inline std::vector<ShaderFamily> listReceiverFamilies(const std::string& fragmen
   axes.push_back({{.needs = always ? std::vector<std::string>{"HS_DERIVATIVES"} : std::vector<std::string>{}},
                   {{"HS_FACET_NORMAL"}, {"HS_LISTS"}}});
   axes.push_back(castingAxis({"HS_LISTS"}));
-  for (const char* macro : {"HS_ONE_SIDED", "HS_BEHIND_FACETS", "HS_AMONG_RECEIVERS"})
+  for (const char* macro : {"HS_ONE_SIDED", "HS_BEHIND_FACETS", "HS_SIDES", "HS_AMONG_RECEIVERS"})
     axes.push_back(flag(macro, {"HS_LISTS"}));
   return receiverFamilies(fragmentFile, {.twoDraws = always, .forward = false}, std::move(axes));
 }

@@ -115,9 +115,9 @@ void encodeRecord(const outlines::ListRecord& record, const EncodedLists::Placed
   }
   for (int k = 0; k < 3; ++k) putCode(offset[k], texels + 2 * k);
   texels[6] = static_cast<std::uint8_t>((record.subLight & 1 ? 128 : 0) | (record.subLight & 2 ? 64 : 0) |
-                                        (record.startsLoop ? 32 : 0) | (record.closesLoop ? 16 : 0) |
-                                        (record.oneSided ? 8 : 0) | (isVertex ? 0 : 4) |
-                                        static_cast<int>(record.end));
+                                        (record.startsLoop || record.firstSide ? 32 : 0) |
+                                        (record.closesLoop ? 16 : 0) | (record.oneSided ? 8 : 0) |
+                                        (isVertex ? 0 : 4) | static_cast<int>(record.end));
   texels[7] = static_cast<std::uint8_t>(scale);
 }
 

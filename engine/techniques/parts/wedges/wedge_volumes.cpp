@@ -8,6 +8,7 @@
 #include <cstddef>
 
 #include "base/keys.hpp"
+#include "outlines/caster_clusters.hpp"
 #include "outlines/wedge_bounds.hpp"
 #include "scene/light_anchor.hpp"
 #include "techniques/parts/wedges/volume_boxes.hpp"
@@ -162,8 +163,10 @@ const WedgeVolumes& WedgeVolumeCache::updatePieces(const LightScene& scene) {
   volumes.farthest = farthest;
   volumes.reach = reach;
   // What a caster covers at all counts once, however often it covers it.
-  const scene::LightSilhouettes& silhouettes = volumes.silhouettes.update(
+  const scene::LightSilhouettes& single = volumes.silhouettes.update(
       placedCasters(scene), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+  const scene::LightSilhouettes silhouettes = outlines::takenTogether(single);
+  volumes.takenTogether = silhouettes.casters.size() < single.casters.size();
   makeWedgePieces(silhouettes, outlines::wedgeUnits(plane), farthest, volumes.pieces);
   volumes.lightEnclosed =
       std::ranges::any_of(silhouettes.casters, &scene::LightSilhouettes::Caster::enclosesLight);

@@ -26,6 +26,7 @@ struct WedgeVolumes {
   double reach = 1.0;  ///< volumes end here sideways: half a side of a square of (a, b) around the receivers
   scene::LightSilhouetteCache silhouettes;
   outlines::WedgePieces pieces;
+  bool takenTogether = false;   ///< some casters are one, see outlines::takenTogether()
   bool lightEnclosed = false;   ///< a closed caster stands around the light's centre: nothing outside is lit
   double stepsPerUnit = 1.0;    ///< of the vertex stream: 1 where fragments have highp
   std::uint64_t streamKey = 0;  ///< of what the stream was made from
