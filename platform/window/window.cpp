@@ -35,8 +35,17 @@ struct WindowEvents {
   static WindowCallbacks& of(GLFWwindow* window) {
     return static_cast<Window*>(glfwGetWindowUserPointer(window))->callbacks_;
   }
-  static void key(GLFWwindow* window, int key, int, int action, int) {
-    if (const auto& callback = of(window).key) callback(key, actionOf(action));
+  static void key(GLFWwindow* window, int key, int, int action, int modifiers) {
+    if (const auto& callback = of(window).key) callback(key, actionOf(action), modifiers);
+  }
+  static void character(GLFWwindow* window, unsigned codepoint) {
+    if (const auto& callback = of(window).character) callback(codepoint);
+  }
+  static void drop(GLFWwindow* window, int count, const char** paths) {
+    if (const auto& callback = of(window).drop) callback({paths, paths + count});
+  }
+  static void refresh(GLFWwindow* window) {
+    if (const auto& callback = of(window).refresh) callback();
   }
   static void button(GLFWwindow* window, int button, int action, int) {
     if (const auto& callback = of(window).button) callback(button, actionOf(action));
@@ -63,10 +72,27 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
                  "No window can be opened (" + lastGlfwError() +
                      "); set DISPLAY, run under xvfb-run, or render without a window."};
   }
+  // Each window holds GLFW alive, and so does this attempt.
   ++windowCount;
+  auto window = createWith(options, GLFW_EGL_CONTEXT_API);
+  if (!window) {
+    const std::string throughEgl = window.error().message;
+    window = createWith(options, GLFW_NATIVE_CONTEXT_API);
+    if (!window) {
+      window = Error{ErrorCode::driverMissing,
+                     "No OpenGL ES 2.0 window through EGL (" + throughEgl + "), nor through GLX (" +
+                         window.error().message +
+                         "); install libegl1, libgles2 and libegl-mesa0, or render without a window."};
+    }
+  }
+  releaseGlfw();
+  return window;
+}
+
+Result<std::unique_ptr<Window>> Window::createWith(const WindowOptions& options, int contextApi) {
   glfwDefaultWindowHints();
   glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_ES_API);
-  glfwWindowHint(GLFW_CONTEXT_CREATION_API, GLFW_EGL_CONTEXT_API);
+  glfwWindowHint(GLFW_CONTEXT_CREATION_API, contextApi);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 2);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 0);
   glfwWindowHint(GLFW_DEPTH_BITS, options.depthBits);
@@ -75,22 +101,19 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
                  options.visibility == WindowOptions::Visibility::shown ? GLFW_TRUE : GLFW_FALSE);
   GLFWwindow* handle =
       glfwCreateWindow(options.width, options.height, options.title.c_str(), nullptr, nullptr);
-  if (!handle) {
-    Error error{ErrorCode::driverMissing,
-                "No OpenGL ES 2.0 window through EGL (" + lastGlfwError() +
-                    "); install libegl1, libgles2 and libegl-mesa0, or render without a "
-                    "window."};
-    releaseGlfw();
-    return error;
-  }
+  if (!handle) return Error{ErrorCode::driverMissing, lastGlfwError()};
+  ++windowCount;
   std::unique_ptr<Window> window(new Window());
   window->window_ = handle;
   glfwSetWindowUserPointer(handle, window.get());
   glfwSetKeyCallback(handle, WindowEvents::key);
+  glfwSetCharCallback(handle, WindowEvents::character);
   glfwSetMouseButtonCallback(handle, WindowEvents::button);
   glfwSetCursorPosCallback(handle, WindowEvents::move);
   glfwSetScrollCallback(handle, WindowEvents::scroll);
   glfwSetFramebufferSizeCallback(handle, WindowEvents::framebufferSize);
+  glfwSetDropCallback(handle, WindowEvents::drop);
+  glfwSetWindowRefreshCallback(handle, WindowEvents::refresh);
   glfwMakeContextCurrent(handle);
   glfwSwapInterval(options.vsync == WindowOptions::Vsync::on ? 1 : 0);
   return window;
@@ -107,6 +130,14 @@ void Window::setCallbacks(WindowCallbacks callbacks) {
 
 void Window::poll() {
   glfwPollEvents();
+}
+
+void Window::wait(double seconds) {
+  glfwWaitEventsTimeout(seconds);
+}
+
+void Window::wake() {
+  glfwPostEmptyEvent();
 }
 
 void Window::swap() {
@@ -131,6 +162,47 @@ Window::Size Window::framebufferSize() const {
   Size size;
   glfwGetFramebufferSize(window_, &size.width, &size.height);
   return size;
+}
+
+void Window::setSize(const Size& size) {
+  glfwSetWindowSize(window_, size.width, size.height);
+}
+
+void Window::minimise() {
+  glfwIconifyWindow(window_);
+}
+
+void Window::restore() {
+  glfwRestoreWindow(window_);
+}
+
+bool Window::isMinimised() const {
+  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) != 0;
+}
+
+Window::Position Window::position() const {
+  Position position;
+  glfwGetWindowPos(window_, &position.x, &position.y);
+  return position;
+}
+
+void Window::setPosition(const Position& position) {
+  glfwSetWindowPos(window_, position.x, position.y);
+}
+
+double Window::contentScale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return x;
+}
+
+std::string Window::clipboard() const {
+  const char* text = glfwGetClipboardString(window_);
+  return text ? text : "";
+}
+
+void Window::setClipboard(const std::string& text) {
+  glfwSetClipboardString(window_, text.c_str());
 }
 
 void Window::setTitle(const std::string& title) {
