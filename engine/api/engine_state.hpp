@@ -166,6 +166,7 @@ struct Engine::State {
   Result<bool> drawUnchanged();
   Status renderFrame(const RenderDesc& desc);
   std::uint64_t memoryBytes() const;
+  std::vector<ImageRecord> images() const;  ///< of the last frame (engine_images.cpp)
 };
 
 }  // namespace halfshadow

@@ -60,6 +60,12 @@ class Engine {
   std::uint32_t outputTexture() const;
   Outcome readOutput(std::uint8_t* rgba, std::size_t byteCount);
 
+  /// Images of the last frame, for looking at what a technique works with: valid, with their names, until the
+  /// engine's next call that changes or renders anything. They may be sampled, and must not be written. Of
+  /// images that shared one texture only the last is listed; renderbuffers are not.
+  std::size_t imageCount() const;
+  ImageRecord image(std::size_t index) const;
+
   /// Shaders for a host that draws receivers itself. Valid for the technique, settings and light of the last
   /// frame; ask again when they change. Errors: invalidArgument (no frame yet, no such light),
   /// capabilityMissing (the technique works on the screen only, e.g. sampled).

@@ -152,6 +152,14 @@ struct FrameReport {
   const char* planGraphviz = "";
 };
 
+/// A texture that the last frame drew, or read as a table: shadow map, mask, pyramid, list, …
+struct ImageRecord {
+  const char* name = "";      ///< "light 0 map"; that of its pass or of the technique's table
+  std::uint32_t texture = 0;  ///< the engine's; bottom row first
+  int width = 0, height = 0;  ///< texels of level 0
+  const char* format = "";    ///< "rgba8", "depth24", …
+};
+
 /// GLSL ES 1.00 that a host puts right behind the #version line of its own shaders to receive one light's
 /// shadows in its own pass. Texts live until the engine's next call.
 struct ForwardRecord {

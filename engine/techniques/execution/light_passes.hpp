@@ -56,6 +56,13 @@ class LightPasses {
   Status upload(Device& device);
   /// Adds images and passes; they refer to this and to the view until the frame ends.
   ReceiverShading declare(FramePasses& frame) const;
+  /// Calls `visit(name, texture)` for each texture of the technique's own.
+  template <typename Visit>
+  void visitTextures(Visit visit) const {
+    for (const auto& [name, own] : textures_) {
+      if (own.texture) visit(name, own.texture);
+    }
+  }
 
  private:
   struct OwnTexture {
