@@ -79,11 +79,15 @@ void addSceneArguments(CLI::App& app, SceneArguments& arguments) {
          "\"eye=x,y,z target=x,y,z [fov=DEGREES] [up=x,y,z]\" in world units; fov is vertical, default 34 "
          "(default: the scene's camera, else one fitted to casters and shadow)")
       ->check([](const std::string& text) { return problemOf(scenes::parseCamera(text), "--camera"); });
-  app.add_option("--light", arguments.light,
-                 "\"center=x,y,z target=x,y,z size=WxH [up=x,y,z]\" (full side lengths in world units) or "
-                 "\"center=x,y,z u=x,y,z v=x,y,z\" (half-extent vectors, emits towards u x v) "
-                 "(default: the scene's light, else one fitted above the casters)")
-      ->check([](const std::string& text) { return problemOf(scenes::parseLight(text), "--light"); });
+  app.add_option(
+         "--light", arguments.lights,
+         "\"center=x,y,z target=x,y,z size=WxH [up=x,y,z]\" (full side lengths in world units) or "
+         "\"center=x,y,z u=x,y,z v=x,y,z\" (half-extent vectors, emits towards u x v), with "
+         "[color=r,g,b] (linear) [intensity=I] [reference=D] (world units at which I counts fully; 0: "
+         "everywhere); repeatable, up to 4 (default: the scene's lights, else one fitted above the "
+         "casters)")
+      ->check([](const std::string& text) { return problemOf(scenes::parseLight(text), "--light"); })
+      ->allow_extra_args(false);
   app.add_option("--ground", arguments.ground,
                  "auto adds a ground plane to scenes without a floor, on to all, off removes it")
       ->check(CLI::IsMember({"auto", "on", "off"}))
@@ -153,7 +157,14 @@ scenes::SceneOptions sceneOptions(const SceneArguments& arguments) {
   if (arguments.ground == "on") options.ground = scenes::GroundMode::on;
   if (arguments.ground == "off") options.ground = scenes::GroundMode::off;
   if (!arguments.camera.empty()) options.camera = scenes::parseCamera(arguments.camera).value();
-  if (!arguments.light.empty()) options.light = scenes::parseLight(arguments.light).value();
+  for (const std::string& text : arguments.lights) {
+    const scene::AreaLight light = scenes::parseLight(text).value();
+    if (!options.light) {
+      options.light = light;
+    } else {
+      options.moreLights.push_back(light);
+    }
+  }
   return options;
 }
 

@@ -19,7 +19,8 @@ namespace halfshadow::cli {
 
 struct SceneArguments {
   std::string source;
-  std::string camera, light;  ///< empty = the scene's, or fitted
+  std::string camera;               ///< empty = the scene's, or fitted
+  std::vector<std::string> lights;  ///< none = the scene's, or a fitted one
   std::string ground = "auto";
   double animationTimeSeconds = 0.0;
   int animationIndex = 0;

@@ -83,9 +83,22 @@ EngineSession::~EngineSession() = default;
 Result<std::unique_ptr<EngineSession>> EngineSession::open(const SessionOptions& options) {
   auto context = createHeadless({.driver = options.driver, .eglLibrary = options.eglLibrary});
   if (!context) return context.error();
+  HeadlessContext* const headless = context->get();
+  auto session = openIn(
+      {.getProcAddress = [](const char* name,
+                            void* user) { return static_cast<HeadlessContext*>(user)->getProcAddress(name); },
+       .user = headless,
+       .description = headless->description()},
+      options);
+  if (session) (*session)->context_ = std::move(context).value();
+  return session;
+}
+
+Result<std::unique_ptr<EngineSession>> EngineSession::openIn(const HostContext& context,
+                                                             const SessionOptions& options) {
   std::unique_ptr<EngineSession> session(new EngineSession);
   session->options_ = options;
-  session->context_ = std::move(context).value();
+  session->host_ = context;
   if (Status status = session->renewEngine(); !status) return status.error();
   return session;
 }
@@ -97,14 +110,12 @@ Status EngineSession::renewEngine() {
   std::vector<const char*> forcedOff;
   for (const std::string& name : options_.forcedOff) forcedOff.push_back(name.c_str());
   Outcome outcome;
-  engine_.reset(Engine::create(
-      {.getProcAddress = [](const char* name,
-                            void* user) { return static_cast<HeadlessContext*>(user)->getProcAddress(name); },
-       .getProcAddressUser = context_.get(),
-       .forcedOff = forcedOff.data(),
-       .forcedOffCount = forcedOff.size(),
-       .hostState = HostState::leaveDirty},
-      outcome));
+  engine_.reset(Engine::create({.getProcAddress = host_.getProcAddress,
+                                .getProcAddressUser = host_.user,
+                                .forcedOff = forcedOff.data(),
+                                .forcedOffCount = forcedOff.size(),
+                                .hostState = options_.hostState},
+                               outcome));
   if (!outcome.ok()) return toStatus(outcome);
   auto measured = deviceSettings(options_.deviceProfile, engine_->driver().renderer);
   if (!measured) return measured.error();

@@ -21,6 +21,14 @@ struct SessionOptions {
   std::string eglLibrary;                ///< see HeadlessOptions::eglLibrary
   std::vector<std::string> forcedOff{};  ///< capability names
   std::string deviceProfile = "auto";    ///< see deviceSettings
+  HostState hostState = HostState::leaveDirty;
+};
+
+/// A context of the caller's: current on this thread whenever the session is used, and alive as long as it.
+struct HostContext {
+  void* (*getProcAddress)(const char* name, void* user) = nullptr;
+  void* user = nullptr;
+  std::string description;  ///< how it was opened, one line
 };
 
 struct Setting {
@@ -45,6 +53,10 @@ class EngineSession {
   /// Opens the driver, makes its context current and an engine in it. Errors: invalidArgument (unknown driver
   /// or capability), driverMissing.
   static Result<std::unique_ptr<EngineSession>> open(const SessionOptions& options);
+  /// An engine in a context that is there already; `options.driver` and `eglLibrary` are not read. Errors:
+  /// those of Engine::create; invalidArgument (unknown capability), fileNotFound, fileMalformed (profile).
+  static Result<std::unique_ptr<EngineSession>> openIn(const HostContext& context,
+                                                       const SessionOptions& options);
   ~EngineSession();
   EngineSession(const EngineSession&) = delete;
   EngineSession& operator=(const EngineSession&) = delete;
@@ -53,7 +65,7 @@ class EngineSession {
   /// Texture and renderbuffer limit of this device, pixels.
   int sizeLimit() const;
   /// How the context was opened, one line.
-  const std::string& contextDescription() const { return context_->description(); }
+  const std::string& contextDescription() const { return host_.description; }
 
   /// A new engine in the same context: no objects, no caches, default settings. Measurements start here, so
   /// that none pays for, or profits from, what another left.
@@ -81,7 +93,8 @@ class EngineSession {
   Status addObjects(const scene::SceneDescription& scene);
   Status updateObject(std::size_t index, const scene::SceneObject& object);
   SessionOptions options_;
-  std::unique_ptr<HeadlessContext> context_;
+  std::unique_ptr<HeadlessContext> context_;  ///< null in a context of the caller's
+  HostContext host_;
   std::unique_ptr<Engine> engine_;
   std::vector<ObjectId> objectIds_;
   std::vector<scene::SceneObject> objects_;  ///< as loaded; meshes are shared

@@ -77,6 +77,59 @@ Result<scene::AreaLight> aimedLight(const Words& words) {
   }
   return scene::areaLightAimed(*center, *target, *width, *height, up);
 }
+Result<scene::AreaLight> placedLight(const Words& words) {
+  constexpr std::string_view kWhat = "--light";
+  constexpr ErrorCode kCode = ErrorCode::invalidLight;
+  const bool hasVectors = words.contains("u") || words.contains("v") || words.contains("emission");
+  const bool isAimed = words.contains("target") || words.contains("size") || words.contains("up");
+  if (hasVectors && isAimed) {
+    return Error{kCode, "--light: u, v and emission cannot be mixed with target, size or up; give one form"};
+  }
+  if (!hasVectors) return aimedLight(words);
+  const auto center = vectorOf(words, "center", kWhat, kCode);
+  if (!center) return center.error();
+  const auto u = vectorOf(words, "u", kWhat, kCode);
+  if (!u) return u.error();
+  const auto v = vectorOf(words, "v", kWhat, kCode);
+  if (!v) return v.error();
+  auto light = scene::areaLightFromVectors(*center, *u, *v);
+  if (!light || !words.contains("emission")) return light;
+  const auto emission = vectorOf(words, "emission", kWhat, kCode);
+  if (!emission) return emission.error();
+  const double length = glm::length(*emission);
+  if (light->halfU != glm::dvec3(0.0) || !(length > 0.0)) {
+    return Error{
+        kCode,
+        "--light: 'emission' is a direction, for points (u=0,0,0 v=0,0,0) only; leave it out or give "
+        "one like emission=0,-1,0"};
+  }
+  light->emission = *emission / length;
+  return light;
+}
+
+/// A number >= 0 that may be left out.
+Status readNumber(const Words& words, std::string_view key, double& value) {
+  const auto found = words.find(key);
+  if (found == words.end()) return {};
+  const auto number = parseNumber(found->second);
+  if (!number || *number < 0.0) {
+    return Error{ErrorCode::invalidLight, "--light: '" + std::string(key) + "=" + std::string(found->second) +
+                                              "' is not a number from 0; write it like " + std::string(key) +
+                                              "=2.5"};
+  }
+  value = *number;
+  return {};
+}
+
+Status readStrength(const Words& words, scene::AreaLight& light) {
+  if (words.contains("color")) {
+    const auto color = vectorOf(words, "color", "--light", ErrorCode::invalidLight);
+    if (!color) return color.error();
+    light.color = glm::vec3(*color);
+  }
+  if (Status status = readNumber(words, "intensity", light.intensity); !status) return status;
+  return readNumber(words, "reference", light.referenceDistance);
+}
 }  // namespace
 
 Result<scene::Camera> parseCamera(std::string_view text) {
@@ -111,21 +164,15 @@ Result<scene::AreaLight> parseLight(std::string_view text) {
   constexpr std::string_view kWhat = "--light";
   constexpr ErrorCode kCode = ErrorCode::invalidLight;
   const Result<Words> words = wordsOf(
-      text, kWhat, "center=x,y,z target=x,y,z size=WxH up=x,y,z, or center=x,y,z u=x,y,z v=x,y,z", kCode);
+      text, kWhat,
+      "center=x,y,z target=x,y,z size=WxH up=x,y,z, or center=x,y,z u=x,y,z v=x,y,z emission=x,y,z, and "
+      "color=r,g,b intensity=I reference=D",
+      kCode);
   if (!words) return words.error();
-  const bool hasVectors = words->contains("u") || words->contains("v");
-  const bool isAimed = words->contains("target") || words->contains("size") || words->contains("up");
-  if (hasVectors && isAimed) {
-    return Error{kCode, "--light: u and v cannot be mixed with target, size or up; give one form"};
-  }
-  if (!hasVectors) return aimedLight(*words);
-  const auto center = vectorOf(*words, "center", kWhat, kCode);
-  if (!center) return center.error();
-  const auto u = vectorOf(*words, "u", kWhat, kCode);
-  if (!u) return u.error();
-  const auto v = vectorOf(*words, "v", kWhat, kCode);
-  if (!v) return v.error();
-  return scene::areaLightFromVectors(*center, *u, *v);
+  Result<scene::AreaLight> light = placedLight(*words);
+  if (!light) return light;
+  if (Status status = readStrength(*words, *light); !status) return status.error();
+  return light;
 }
 
 }  // namespace halfshadow::scenes

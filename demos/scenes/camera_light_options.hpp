@@ -18,7 +18,8 @@ Result<scene::Camera> parseCamera(std::string_view text);
 
 /// "center=x,y,z target=x,y,z size=WxH [up=x,y,z]" (full side lengths; "size=S" is a square, 0x0 a point), or
 /// "center=x,y,z u=x,y,z v=x,y,z" (half-extent vectors; shines to the side of u × v; both zero: a point that
-/// shines downward).
+/// shines downward, or as emission=x,y,z says). Either with color=r,g,b (linear), intensity=I and
+/// reference=D, see scene::AreaLight; the aimed form's reference is the target's distance when left out.
 /// Errors: invalidLight (the message quotes the word that is wrong).
 Result<scene::AreaLight> parseLight(std::string_view text);
 

@@ -161,6 +161,7 @@ Status completeScene(SceneDescription& description, const SceneOptions& options)
   }
   const Bounds subject = subjectBounds(description);
   if (options.light) description.lights = {*options.light};
+  description.lights.insert(description.lights.end(), options.moreLights.begin(), options.moreLights.end());
   if (description.lights.empty()) {
     if (Status status = addLight(description, subject); !status) return status;
   }

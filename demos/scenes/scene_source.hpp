@@ -6,6 +6,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/error.hpp"
 #include "scene/scene_description.hpp"
@@ -19,10 +20,11 @@ enum class GroundMode { automatic, on, off };
 
 struct SceneOptions {
   GroundMode ground = GroundMode::automatic;
-  double animationTimeSeconds = 0.0;      ///< files only
-  int animationIndex = 0;                 ///< files only; -1 = rest pose
-  std::optional<scene::Camera> camera;    ///< replaces the scene's; near and far are fitted anyway
-  std::optional<scene::AreaLight> light;  ///< replaces all of the scene's lights
+  double animationTimeSeconds = 0.0;         ///< files only
+  int animationIndex = 0;                    ///< files only; -1 = rest pose
+  std::optional<scene::Camera> camera;       ///< replaces the scene's; near and far are fitted anyway
+  std::optional<scene::AreaLight> light;     ///< replaces all of the scene's lights
+  std::vector<scene::AreaLight> moreLights;  ///< stand beside `light`
 };
 
 /// Opens `builtin:NAME[@key=value,…]` or a .gltf/.glb file. The result always has a camera, at least one
