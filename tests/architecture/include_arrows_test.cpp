@@ -165,7 +165,8 @@ TEST(IncludeArrows, ThirdPartyLibrariesHaveOneHome) {
   const std::vector<Home> kHomes = {{"embree3/", "engine/reference/"},
                                     {"OpenImageIO/", "platform/images/"},
                                     {"tiny_gltf.h", "demos/scenes/"},
-                                    {"CLI/", "demos/halfshadow/"}};
+                                    {"GLFW/", "platform/window/"},
+                                    {"CLI/", "demos/"}};
   std::set<std::string> seen;
   for (const SourceFile& file : sourceTree()) {
     if (!isCpp(file) || file.path.starts_with("tests/")) continue;
