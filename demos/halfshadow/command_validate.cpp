@@ -54,8 +54,9 @@ std::vector<Expectation> expectations(const scenes::ValidationReport& report) {
     const std::string open = std::to_string(report.openCasters) + " of " + std::to_string(report.casters) +
                              " casters are open: their boundaries count as silhouette edges, two-sided; ";
     result.push_back({kVolumes, open + "exact"});
-    result.push_back({kWedges, open + "the sides that face the light and those that face away are combined "
-                                      "like two casters, a little too dark where they lie close together"});
+    result.push_back(
+        {kWedges, open + "of the sides that face the light and those that face away the one that covers "
+                         "more counts"});
   }
   if (report.repairedCasters > 0) {
     const Expectation repaired{kVolumes, std::to_string(report.repairedCasters) +

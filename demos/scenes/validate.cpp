@@ -123,11 +123,11 @@ ObjectReport reportOn(const SceneObject& object, AdjacencyOfMeshes& adjacency) {
 
 void addObjectWarnings(ObjectReport& report) {
   if (report.casts && !report.closed) {
-    report.warnings.push_back(
-        "the caster is open (" + counted(report.sheets, "sheet", "sheets") + " of " +
-        counted(report.parts, "part", "parts") + ", " +
-        counted(report.boundaryEdges, "boundary edge", "boundary edges") +
-        "): techniques that use silhouettes count its sides apart; close the holes or give it thickness");
+    report.warnings.push_back("the caster is open (" + counted(report.sheets, "sheet", "sheets") + " of " +
+                              counted(report.parts, "part", "parts") + ", " +
+                              counted(report.boundaryEdges, "boundary edge", "boundary edges") +
+                              "): techniques that use silhouettes count its sides once, the one that covers "
+                              "more; light comes through where neither has a face");
   }
   if (report.looseParts > 0) {
     report.warnings.push_back(
