@@ -111,6 +111,10 @@ TEST_F(OpenCasters, ShadowTheGroundOnce) {
             errorOf(renderer().render(Configuration{technique}).visibility(), *truth, *receivers);
         std::printf("%-30s light at %.0f, %.0f %-22s %.4f\n", tested.name, lightAt.x, lightAt.y, technique,
                     error);
+        // Without highp lists have few rows: another technique may have taken the light, and said so.
+        if (isForcedOff("highp") &&
+            renderer().report().hasSkip("light 0 " + std::string(technique), "takes the light"))
+          continue;
         // Seen from the light's centre a box's edges jump from one side of it to the other.
         const bool edges = tested.name == std::string("box without its bottom");
         EXPECT_LE(error, edges ? 2.5 * most : most) << tested.name << ", " << technique;
