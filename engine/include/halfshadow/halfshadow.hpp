@@ -22,8 +22,9 @@ class Engine {
   Engine(const Engine&) = delete;
   Engine& operator=(const Engine&) = delete;
 
-  /// Copies, checks and uploads a mesh, once for all objects that are added with the same values. Degenerate and duplicate triangles are dropped. Errors: invalidMesh,
-  /// emptyScene (no triangle is left), invalidArgument (non-finite transform), outOfMemory.
+  /// Copies, checks and uploads a mesh, once for all objects that are added with the same values. Degenerate
+  /// and duplicate triangles are dropped. Errors: invalidMesh, emptyScene (no triangle is left),
+  /// invalidArgument (non-finite transform), outOfMemory.
   Outcome addObject(const ObjectDesc& desc, ObjectId& id);
   /// Moves an object; light views that it touches are remade. Errors: invalidArgument.
   Outcome setTransform(ObjectId id, const double worldFromObject[16]);

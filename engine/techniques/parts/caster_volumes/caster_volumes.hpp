@@ -36,8 +36,8 @@ enum class Batching {
   disjoint  ///< volumes of one sub-light and batch have no receiver in common
 };
 
-/// Every caster has a volume for receivers at its own heights, the sides of a sheet one together; behind it, it
-/// has another, or its layers have, up to where its cluster does.
+/// Every caster has a volume for receivers at its own heights, the sides of a sheet one together; behind it,
+/// it has another, or its layers have, up to where its cluster does.
 CasterVolumes casterVolumes(std::span<const outlines::SubLightLoops> subLights,
                             const outlines::ListSpace& space, const VolumeReach& reach, Batching batching);
 
