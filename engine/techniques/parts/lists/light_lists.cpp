@@ -21,7 +21,7 @@ constexpr double kEvenSlope = 2.0, kSqueezedFrom = 16.0;
 constexpr std::size_t kFinerGrowth = 5;
 
 /// Lists are made so often at most, each time with larger tiles.
-constexpr int kMostAttempts = 6;
+constexpr int kMostAttempts = 8;
 
 Error tooManyVertices(const ListRequest& request) {
   return {
