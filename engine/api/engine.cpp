@@ -66,6 +66,7 @@ Engine* Engine::create(const EngineDesc& desc, Outcome& outcome) {
                                          desc.shaderFolder ? gl::directoryShaders(desc.shaderFolder)
                                                            : gl::ShaderSourceProvider(gl::embeddedShader),
                                          techniques::allShaderFamilies(state.techniques));
+  if (desc.programProofs) state.proofs.restore(desc.programProofs, state.context->capabilities().driver);
   state.encoder = std::make_unique<gl::Encoder>(*state.context);
   state.executor = std::make_unique<framegraph::Executor>(*state.context);
   state.settings = std::make_unique<techniques::Settings>(techniques::allSettings(state.techniques));

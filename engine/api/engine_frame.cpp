@@ -42,13 +42,12 @@ techniques::Technique* Engine::State::techniqueNamed(std::string_view id) const 
 }
 
 void Engine::State::declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets) {
-  const auto output = api::receiverOutput(frame.desc, frame.lights.size());
+  const auto output = api::receiverOutput(frame.desc, frame.shading);
   const bool shaded = output == techniques::ReceiverOutput::shaded;
   framegraph::PassDesc pass{.name = shaded ? "receivers, shaded" : "receivers, visibility",
                             .stage = framegraph::PassStage::scene,
                             .writes = std::move(targets)};
-  // An image of one value a pixel shows the first light only.
-  const std::size_t drawn = output == techniques::ReceiverOutput::visibility ? frame.lights.size() : 1;
+  const std::size_t drawn = api::drawnLights(frame.desc, frame.shading, frame.lights.size());
   for (std::size_t i = 0; i < drawn; ++i) {
     for (const auto resource : techniques::resourcesRead(frame.lights[i].shading))
       pass.reads.push_back(resource);
@@ -56,13 +55,8 @@ void Engine::State::declareVisibilityPass(Frame& frame, std::vector<framegraph::
   pass.execute = [&frame, drawn, shaded](framegraph::PassContext& passContext) {
     for (std::size_t i = 0; i < drawn; ++i) {
       const FrameLight& light = frame.lights[i];
-      techniques::ReceiverTarget receiverTarget{.depthIsComplete = i > 0};
-      if (drawn > 1) {
-        receiverTarget.colorMask.fill(false);
-        receiverTarget.colorMask[i] = true;
-      }
       techniques::drawReceivers(passContext, light.shading, light.programs, frame.view, frame.receivers,
-                                shaded ? &frame.shadingInputs : nullptr, receiverTarget);
+                                shaded ? &frame.shadingInputs : nullptr, api::receiverTarget(i, drawn));
     }
   };
   frame.graph.addPass(std::move(pass));
@@ -85,7 +79,8 @@ Status Engine::State::declareReceiverPasses(Frame& frame) {
   frame.color = targets.front().resource;
   frame.graph.markOutput(frame.color);
   for (const scene::AreaLight& light : lights) frame.shadingInputs.lights.push_back(&light);
-  if (desc.output != Output::shaded || lights.size() == 1) {
+  frame.shadingInputs.scale = techniques::shadingScale(lights.front(), frame.receivers);
+  if (desc.output != Output::shaded || frame.shading == api::Shading::together) {
     declareVisibilityPass(frame, std::move(targets));
     return {};
   }
@@ -152,6 +147,7 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
   for (std::uint32_t number = 0; number < lightCaches.size(); ++number) {
     if (std::ranges::find(lightNumbers, number) == lightNumbers.end()) lightCaches[number] = {};
   }
+  if (lights.size() > 1) frame.shading = api::Shading::apart;
   techniques::FramePasses passes{frame.view, frame.graph};
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (Status s = declareLight(frame, passes, i, framePlan); !s) return s;
@@ -164,11 +160,18 @@ Status Engine::State::renderFrame(const RenderDesc& desc) {
   if (Status s = checkFrame(desc, camera); !s) return s;
   gl::HostStateGuard guard(*context, policy());
   const gl::Counters before = encoder->counters();
+  gl::Counters proving;
   encoder->beginFrame();
-  auto frame = std::make_unique<Frame>();
-  frame->desc = desc;
-  frame->sceneRevision = sceneRevision();
-  if (Status s = declareFrame(*frame, camera); !s) return s;
+  std::unique_ptr<Frame> frame;
+  for (bool proven = false; !proven;) {
+    frame = std::make_unique<Frame>();
+    frame->desc = desc;
+    frame->sceneRevision = sceneRevision();
+    if (Status s = declareFrame(*frame, camera); !s) return s;
+    const Result<bool> draws = provePrograms(*frame, proving);
+    if (!draws) return draws.error();
+    proven = *draws;
+  }
   auto plan = framegraph::compile(frame->graph, [this](const framegraph::ResourceDesc& resource) {
     return executor->contentKeyOf(resource);
   });
@@ -180,7 +183,7 @@ Status Engine::State::renderFrame(const RenderDesc& desc) {
   if (!passReports) return passReports.error();
   if (Status s = context->checkErrors("a frame"); !s) return s;
   frame->passReports = std::move(passReports).value();
-  frame->counters = encoder->counters() - before;
+  frame->counters = encoder->counters() - before - proving;
   frame->valid = true;
   lastFrame = std::move(frame);
   return {};

@@ -91,6 +91,9 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
   }
+  auto choice = choiceFor(frame, index, *used);
+  if (!choice) return choice.error();
+  used = choice->technique;
   // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
   shadowless.clear();
   auto caster = plan.casters.begin();  // in the order of objects
@@ -108,10 +111,10 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
                                                             .casters = cache.casterShapes.values(),
                                                             .receiverFarDistance = receiverFarDistance,
                                                             .contentKey = plan.contentKey},
-                                                           *used, *settings, splitReason);
+                                                           *used, *choice->settings, splitReason);
   if (!splitReason.empty()) frame.graph.noteSkipped(nameOf(index) + " sub-lights", splitReason);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
-                                     .settings = *settings,
+                                     .settings = *choice->settings,
                                      .screen = frame.view,
                                      .channel = static_cast<int>(index),
                                      .name = nameOf(index),
@@ -134,10 +137,16 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
                                               : "; " + standIn->id + " takes the light";
     frame.graph.noteSkipped(nameOf(index) + " " + used->info().id, standIn->reason + outcome);
-    if (!hostEvaluates) used = techniqueNamed(standIn->id);
+    if (!hostEvaluates) {
+      choice = choiceFor(frame, index, *techniqueNamed(standIn->id));
+      if (!choice) return choice.error();
+      used = choice->technique;
+    }
   }
+  if (choice->settings->choice("shading") == "apart") frame.shading = api::Shading::apart;
   auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
   if (!prepared) return prepared.error();
+  target.technique = *prepared;
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
@@ -146,7 +155,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     return {};
   }
   auto linked = techniques::receiverPrograms(*programs, target.shading,
-                                             api::receiverOutput(frame.desc, lights.size()), frame.receivers);
+                                             api::receiverOutput(frame.desc, frame.shading), frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
@@ -190,8 +199,10 @@ Result<techniques::Technique*> Engine::State::preparedTechnique(Frame& frame, st
                .why = planned.error().message};
   }
   frame.graph.noteSkipped(nameOf(index) + " " + asked.info().id, refusal.why + "; pcss-mip takes the light");
-  if (Status s = prepareLight(cache, *instead, scene); !s) return s.error();
-  return instead;
+  const auto choice = choiceFor(frame, index, *instead);
+  if (!choice) return choice.error();
+  if (Status s = prepareLight(cache, *choice->technique, scene); !s) return s.error();
+  return choice->technique;
 }
 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,

@@ -12,7 +12,9 @@
 #include <vector>
 
 #include "api/engine_object.hpp"
+#include "api/frame_desc.hpp"
 #include "api/item_list.hpp"
+#include "api/light_fallbacks.hpp"
 #include "api/light_split.hpp"
 #include "api/scene_lists.hpp"
 #include "framegraph/executor.hpp"
@@ -20,6 +22,7 @@
 #include "gl/encoder.hpp"
 #include "gl/host_state.hpp"
 #include "gl/program.hpp"
+#include "gl/program_proofs.hpp"
 #include "halfshadow/halfshadow.hpp"
 #include "planner/frame_planner.hpp"
 #include "techniques/execution/light_passes.hpp"
@@ -52,11 +55,13 @@ struct LightCache {
   double receiverFarDistance = 0.0;
   api::LightSplit split;
   api::Refusal refusal;
+  api::LightFallbacks fallbacks;
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };
 
 struct FrameLight {
+  techniques::Technique* technique = nullptr;
   techniques::ReceiverShading shading;
   techniques::ReceiverProgramSet programs;
 };
@@ -67,10 +72,11 @@ struct Frame {
   techniques::View view;
   std::span<const techniques::DrawItem> receivers;
   std::vector<FrameLight> lights;
+  api::Shading shading = api::Shading::together;
   framegraph::Graph graph;
   framegraph::ResourceId color;
   techniques::ShadingInputs shadingInputs;    ///< Output::shaded
-  techniques::ReceiverShading screenShading;  ///< Output::shaded with several lights
+  techniques::ReceiverShading screenShading;  ///< Output::shaded apart
   techniques::ReceiverProgramSet screenPrograms;
 
   // What became of it.
@@ -96,6 +102,8 @@ struct Engine::State {
   std::unique_ptr<gl::Context> context;
   HostState hostState = HostState::restore;
   std::unique_ptr<gl::ProgramCache> programs;
+  gl::ProgramProofs proofs;  ///< of `programs`
+  std::string proofsText;
   std::unique_ptr<gl::Encoder> encoder;
   std::unique_ptr<framegraph::Executor> executor;
   techniques::SharedTextures shared;
@@ -155,6 +163,14 @@ struct Engine::State {
                       const techniques::LightScene& scene);
   /// Uploads and declares the light's prepared passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index);
+  // Programs that draw nothing (engine_proofs.cpp).
+  /// What the light is drawn with; gives reasons where that is not `asked`. Errors: capabilityMissing.
+  Result<api::LightFallbacks::Choice> choiceFor(Frame& frame, std::size_t light,
+                                                techniques::Technique& asked);
+  /// Proves every program that the declared frame draws with; false when the frame must be declared again,
+  /// with what takes the place of those that draw nothing. `spent` is set to what proving cost. Errors:
+  /// capabilityMissing.
+  Result<bool> provePrograms(const Frame& frame, gl::Counters& spent);
   // The frame (engine_frame.cpp).
   void declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets);
   Status declareReceiverPasses(Frame& frame);

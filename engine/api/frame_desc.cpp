@@ -40,10 +40,11 @@ Status checkTarget(const TargetDesc& target, const device::Limits& limits) {
   return {};
 }
 
-techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t lightCount) {
+techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, Shading shading) {
   switch (desc.output) {
     case Output::shaded:
-      return lightCount > 1 ? techniques::ReceiverOutput::visibility : techniques::ReceiverOutput::shaded;
+      return shading == Shading::apart ? techniques::ReceiverOutput::visibility
+                                       : techniques::ReceiverOutput::shaded;
     case Output::visibility:
     case Output::lightsOnly:
       return techniques::ReceiverOutput::visibility;
@@ -53,6 +54,19 @@ techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t li
       return techniques::ReceiverOutput::taps;
   }
   return techniques::ReceiverOutput::visibility;
+}
+
+std::size_t drawnLights(const RenderDesc& desc, Shading shading, std::size_t lightCount) {
+  return receiverOutput(desc, shading) == techniques::ReceiverOutput::visibility ? lightCount : 1;
+}
+
+techniques::ReceiverTarget receiverTarget(std::size_t light, std::size_t drawn) {
+  techniques::ReceiverTarget target{.depthIsComplete = light > 0};
+  if (drawn > 1) {
+    target.colorMask.fill(false);
+    target.colorMask[light] = true;
+  }
+  return target;
 }
 
 bool sameFrame(const RenderDesc& a, const RenderDesc& b) {

@@ -36,7 +36,30 @@ Error missing(const ResourceDesc& desc, device::Capability capability, ErrorCode
                          "', which this driver lacks; declare another format or storage"};
 }
 
+gl::TextureFormat textureFormatOf(Format format, bool has24) {
+  switch (format) {
+    case Format::depth16:
+      return gl::TextureFormat::depth16;
+    case Format::depth24:
+      return has24 ? gl::TextureFormat::depth24 : gl::TextureFormat::depth16;
+    case Format::depth24Stencil8:
+      return gl::TextureFormat::depth24Stencil8;
+    case Format::rgba8:
+    case Format::stencil8:
+      break;
+  }
+  return gl::TextureFormat::rgba8;
+}
+
 }  // namespace
+
+gl::TextureDesc textureDescOf(const ResourceDesc& desc, const device::Capabilities& capabilities) {
+  return {.width = desc.width,
+          .height = desc.height,
+          .format = textureFormatOf(desc.format, capabilities.has(device::Capability::depth24)),
+          .filter = filterOf(desc.filter),
+          .mipmapped = desc.mipmapped};
+}
 
 void ResourcePool::beginRun() {
   ++run_;
@@ -54,7 +77,6 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
     return missing(desc, device::Capability::packedDepthStencil, ErrorCode::capabilityMissing);
   }
   const bool has24 = capabilities.has(device::Capability::depth24);
-  gl::TextureFormat textureFormat = gl::TextureFormat::rgba8;
   gl::RenderbufferFormat renderbufferFormat = gl::RenderbufferFormat::depth16;
   switch (desc.format) {
     case Format::rgba8:
@@ -66,10 +88,8 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
       }
       break;
     case Format::depth16:
-      textureFormat = gl::TextureFormat::depth16;
       break;
     case Format::depth24:
-      textureFormat = has24 ? gl::TextureFormat::depth24 : gl::TextureFormat::depth16;
       renderbufferFormat = has24 ? gl::RenderbufferFormat::depth24 : gl::RenderbufferFormat::depth16;
       break;
     case Format::stencil8:
@@ -81,7 +101,6 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
       renderbufferFormat = gl::RenderbufferFormat::stencil8;
       break;
     case Format::depth24Stencil8:
-      textureFormat = gl::TextureFormat::depth24Stencil8;
       renderbufferFormat = gl::RenderbufferFormat::depth24Stencil8;
       break;
   }
@@ -89,11 +108,7 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
   image->desc = desc;
   image->serial = nextSerial_++;
   if (isTexture) {
-    Result<gl::Texture> texture = gl::Texture::create(context_, {.width = desc.width,
-                                                                 .height = desc.height,
-                                                                 .format = textureFormat,
-                                                                 .filter = filterOf(desc.filter),
-                                                                 .mipmapped = desc.mipmapped});
+    Result<gl::Texture> texture = gl::Texture::create(context_, textureDescOf(desc, capabilities));
     if (!texture)
       return Error{texture.error().code, "resource '" + desc.name + "': " + texture.error().message};
     image->texture = std::move(*texture);

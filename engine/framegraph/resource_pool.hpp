@@ -35,6 +35,9 @@ struct AttachedImages {
   const Image* stencil = nullptr;
 };
 
+/// Of the texture behind a resource with Storage::texture and a format that textures have.
+gl::TextureDesc textureDescOf(const ResourceDesc& desc, const device::Capabilities& capabilities);
+
 class ResourcePool {
  public:
   explicit ResourcePool(gl::Context& context) : context_(context) {}

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "base/keys.hpp"
+
 namespace halfshadow::gl {
 namespace {
 
@@ -92,6 +94,7 @@ Result<Program> Program::link(Context& context, std::string_view vertexSource,
                               std::string_view label) {
   Program program;
   program.label_ = label;
+  program.sourceKey_ = combineKeys(textKey(vertexSource), textKey(fragmentSource));
   program.object_ = Object<ObjectKind::program>::create(context);
   if (!program.object_) {
     return Error{ErrorCode::contextLost,

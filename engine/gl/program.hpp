@@ -42,6 +42,8 @@ class Program {
   static Program wrap(Context& context, std::uint32_t name);
   std::uint32_t name() const { return wrapped_ ? wrapped_ : object_.name(); }
   const std::string& label() const { return label_; }
+  /// Of both texts; 0 of a host's program.
+  std::uint64_t sourceKey() const { return sourceKey_; }
   /// Makes a sampler read from a unit; the program must be current.
   void setSampler(Context& context, UniformKey key, int unit);
   bool has(UniformKey key) const { return find(key) != nullptr; }
@@ -76,6 +78,7 @@ class Program {
   Uniform* changed(Context& context, UniformKey key, const float* values, std::size_t count);
   Object<ObjectKind::program> object_;
   std::uint32_t wrapped_ = 0;
+  std::uint64_t sourceKey_ = 0;
   std::vector<Uniform> uniforms_;
   std::string label_;
 };

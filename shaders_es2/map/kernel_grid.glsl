@@ -9,7 +9,32 @@ float hs_pcfGrid() {
   HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
   HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
   float lit = 0.0;
-#if HS_KERNEL <= 8
+#if HS_KERNEL == 4 && !defined(HS_SUB_LIGHTS_U)
+  // Row by row; what all taps of a row have in common is added up once.
+  HS_HIGHP vec2 uv = first * u_map.y;
+#ifdef HS_DEPTH_PACKED16
+  HS_HIGHP vec4 plane = planeFirst + hs_gradient.x * vec4(0.0, 1.0, 2.0, 3.0);
+  for (int y = 0; y < 4; ++y) {
+    vec4 least = min(plane, 0.0) - bias;
+    lit += step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver));
+    lit += step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
+    lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
+    lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+#else
+  HS_HIGHP float base = hs_receiver - bias;
+  HS_HIGHP float plane = planeFirst + base;
+  for (int y = 0; y < 4; ++y) {
+    HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
+    lit += step(min(plane, base), hs_depthValue(texture2D(u_depthMap, uv)));
+    lit += step(min(next.x, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0))));
+    lit += step(min(next.y, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0))));
+    lit += step(min(next.z, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
+#endif
+    HS_COUNT(4);
+    uv.y += u_map.y;
+    plane += hs_gradient.y;
+  }
+#elif HS_KERNEL <= 8
   for (int y = 0; y < HS_KERNEL; ++y) {
     for (int x = 0; x < HS_KERNEL; ++x) {
       HS_HIGHP vec2 offset = vec2(float(x), float(y));

@@ -25,7 +25,8 @@ float halfshadow_class() {
 float halfshadow_visibility() {
   hs_prepare();
 #ifdef HS_PHASE_FILTER
-  return hs_lightMisses ? 1.0 : hs_pcf();
+  float lit = hs_pcf();
+  return hs_lightMisses ? 1.0 : lit;
 #else
   float known = hs_maskClass();
 #ifdef HS_SKIP_LOOP

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Diffuse shading of receivers for pictures; positions are relative to the first light's centre, world axes.
+// Diffuse shading of receivers for pictures; positions are relative to the first light's centre, world axes, in units in
+// which all receivers are within 1 of it: squares of lengths neither vanish nor overflow.
 uniform HS_HIGHP vec4 u_baseColor;
 uniform HS_HIGHP vec4 u_eye;
 varying HS_HIGHP vec3 v_shadePosition;
@@ -10,15 +11,24 @@ varying HS_HIGHP vec2 v_texcoord;
 uniform HS_HIGHP sampler2D u_baseColorTexture;
 #endif
 
-// Smooth where the mesh has normals, else the facet's; turned towards the eye.
-HS_HIGHP vec3 hs_shadingNormal() {
+#ifdef HS_NO_HIGHP
+#define HS_LEAST 1e-4
+#else
+#define HS_LEAST 1e-30
+#endif
+
+// xyz: smooth where the mesh has normals, else the facet's; w: what scales it to unit length and turns it towards the
+// eye.
+HS_HIGHP vec4 hs_shadingNormal() {
   HS_HIGHP vec3 n = v_shadeNormal;
 #ifdef HS_DERIVATIVES
   if (dot(n, n) < 1e-12) n = cross(dFdx(v_shadePosition), dFdy(v_shadePosition));
+#ifdef HS_NO_HIGHP
+  n /= max(max(max(abs(n.x), abs(n.y)), abs(n.z)), 1e-7);  // its square would vanish
 #endif
-  HS_HIGHP float size = max(max(abs(n.x), abs(n.y)), abs(n.z));
-  n = size > 0.0 ? normalize(n / size) : vec3(0.0, 1.0, 0.0);
-  return dot(n, u_eye.xyz - v_shadePosition) < 0.0 ? -n : n;
+#endif
+  HS_HIGHP float scale = inversesqrt(max(dot(n, n), HS_LEAST));
+  return vec4(n, dot(n, u_eye.xyz - v_shadePosition) < 0.0 ? -scale : scale);
 }
 
 vec3 hs_albedo() {
@@ -30,17 +40,16 @@ vec3 hs_albedo() {
 #endif
 }
 
-float hs_sky(HS_HIGHP vec3 n) { return 0.13 + 0.07 * n.y; }
+// n: as of hs_shadingNormal().
+float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 
-// light: xyz centre, w 1 / the distance at which the intensity counts 1; 0: it does so everywhere
-vec3 hs_lightTerm(HS_HIGHP vec3 n, HS_HIGHP vec4 light, HS_HIGHP vec3 emission, vec3 color) {
-  HS_HIGHP vec3 fromLight = v_shadePosition - light.xyz;
-  HS_HIGHP float size = max(max(abs(fromLight.x), abs(fromLight.y)), abs(fromLight.z));
-  fromLight = size > 0.0 ? fromLight / size : emission;  // squares of very small worlds would vanish
-  HS_HIGHP float relative = length(fromLight);
-  float cosine = max(-dot(n, fromLight) / relative, 0.0) * step(0.0, dot(emission, fromLight));
-  HS_HIGHP float distance = max(relative * (size * light.w), 1e-3);
-  float falloff = light.w > 0.0 ? min(1.0 / (distance * distance), 4.0) : 1.0;
+// fromLight: from its centre; reference: the distance at which the intensity counts 1; emission: w: 1 where it does so
+// everywhere, and the reference is 0
+vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission, vec3 color) {
+  HS_HIGHP float inverse = inversesqrt(max(dot(fromLight, fromLight), HS_LEAST));
+  float cosine = max(-dot(n.xyz, fromLight) * (inverse * n.w), 0.0) * step(0.0, dot(emission.xyz, fromLight));
+  HS_HIGHP float nearness = inverse * reference;
+  float falloff = min(max(nearness * nearness, emission.w), 4.0);
   return color * (0.85 * falloff * cosine);
 }
 

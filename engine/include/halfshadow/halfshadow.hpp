@@ -83,6 +83,11 @@ class Engine {
   /// Waits until the GPU is done.
   void finish();
 
+  /// Every program is drawn with once before it is used, since some drivers leave out draws of those they
+  /// cannot compile, without an error: what was found so far, for EngineDesc::programProofs of the next
+  /// start. Text of one line a program; valid until the next call.
+  const char* programProofs();
+
   DriverRecord driver() const;
   std::size_t capabilityCount() const;
   CapabilityRecord capability(std::size_t index) const;

@@ -42,6 +42,9 @@ struct EngineDesc {
   HostState hostState = HostState::restore;
   /// Folder that replaces the embedded shaders, or null.
   const char* shaderFolder = nullptr;
+  /// What Engine::programProofs() gave at an earlier time, or null: those programs are not proven again. Of
+  /// another driver, or malformed: as null. Read by create() alone.
+  const char* programProofs = nullptr;
 };
 
 /// A triangle list, copied during the call. Closed shells may be wound either way, even unlike themselves:

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/keys.hpp"
+
 namespace halfshadow::techniques {
 namespace {
 std::string number(double value) {
@@ -46,6 +48,23 @@ std::vector<SettingInfo> commonSettings() {
        16,
        {},
        "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"},
+      {"shading",
+       SettingType::choice,
+       "together",
+       0,
+       0,
+       {"together", "apart"},
+       "whether a single light is shaded where its visibility is found, or in a pass of its own: smaller "
+       "programs, and one image more; several lights are always shaded apart"},
+      {"program_size",
+       SettingType::choice,
+       "full",
+       0,
+       0,
+       {"full", "short"},
+       "short: forms of pcss, pcss-mip and pcf-quantized that fit 256 instructions: tap by tap, one search, "
+       "no "
+       "horizons; taken by itself where the full ones draw nothing; device profiles set it"},
       {"filter_skip",
        SettingType::choice,
        "stencil",
@@ -118,6 +137,15 @@ Status Settings::set(std::string_view key, std::string_view value) {
     ++revision_;
   }
   return {};
+}
+
+Settings Settings::with(std::span<const std::pair<std::string, std::string>> values) const {
+  Settings changed = *this;
+  for (const auto& [key, value] : values) {
+    (void)changed.set(key, value).ok();
+    changed.revision_ = combineKeys(changed.revision_, textKey(key + "=" + value));
+  }
+  return changed;
 }
 
 const std::string& Settings::valueOf(std::string_view key) const {

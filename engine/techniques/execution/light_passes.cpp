@@ -165,6 +165,23 @@ Status LightPasses::uploadBuffers(Device& device) {
   return {};
 }
 
+void LightPasses::addUses(ProgramUses& uses) const {
+  const auto descOf = [&](ResourceId image) -> const framegraph::ResourceDesc& {
+    return plan_.images[image.index];
+  };
+  for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
+    const std::vector<PlannedDraw>& draws = plan_.passes[pass].draws;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const PlannedDraw& draw = draws[i];
+      if (const auto* receivers = std::get_if<ReceiversDraw>(&draw.what)) {
+        uses.addReceivers(receivers_[pass][i], receivers->shading, receivers->target, descOf);
+      } else {
+        uses.add(*programs_[draw.program], draw.state, draw.textures, descOf);
+      }
+    }
+  }
+}
+
 LightPasses::Images LightPasses::declareImages(framegraph::Graph& graph) const {
   Images images;
   for (std::size_t i = 0; i < plan_.images.size(); ++i) {

@@ -13,6 +13,7 @@
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
 #include "techniques/core/pass_plan.hpp"
+#include "techniques/execution/program_uses.hpp"
 #include "techniques/execution/receiver_pass.hpp"
 #include "techniques/execution/shared_textures.hpp"
 
@@ -54,6 +55,8 @@ class LightPasses {
   Status prepare(const LightScene& scene);
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
+  /// What the passes draw with. After upload().
+  void addUses(ProgramUses& uses) const;
   /// Adds images and passes; they refer to this and to the view until the frame ends.
   ReceiverShading declare(FramePasses& frame) const;
   /// Calls `visit(name, texture)` for each texture of the technique's own.

@@ -78,6 +78,9 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front()->centerWorld, 0.0);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row) relative[column][row] *= inputs->scale;
+  }
   program.set(gl, "u_shadeFromObject", glm::mat4(relative));
   program.set(gl, "u_worldNormalFromObject",
               glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
@@ -96,19 +99,30 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
   for (std::size_t i = 0; i < 4; ++i) {
     if (i >= inputs->lights.size()) continue;
     const scene::AreaLight& light = *inputs->lights[i];
-    const double reference = light.referenceDistance;
-    position[i] = glm::vec4(glm::vec3(light.centerWorld - origin),
-                            reference > 0.0 ? static_cast<float>(1.0 / reference) : 0.0f);
-    emission[i] = glm::vec4(glm::vec3(light.emission), 0.0f);
+    // Beyond that the falloff is at its limit everywhere.
+    constexpr double kMostReference = 1024.0;
+    const double reference = std::min(light.referenceDistance * inputs->scale, kMostReference);
+    position[i] = glm::vec4(glm::vec3((light.centerWorld - origin) * inputs->scale), reference);
+    emission[i] = glm::vec4(glm::vec3(light.emission), reference > 0.0 ? 0.0f : 1.0f);
     color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
   }
   program.setArray(gl, "u_lightPosition", position, 4);
   program.setArray(gl, "u_lightEmission", emission, 4);
   program.setArray(gl, "u_lightColor", color, 4);
-  program.set(gl, "u_eye", glm::vec4(glm::vec3(view.eyeWorld - origin), 0.0f));
+  program.set(gl, "u_eye", glm::vec4(glm::vec3((view.eyeWorld - origin) * inputs->scale), 0.0f));
 }
 
 }  // namespace
+
+double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers) {
+  double farthest = 0.0;
+  for (const DrawItem& item : receivers) {
+    const glm::dvec3 reach = glm::max(glm::abs(item.boundsWorld.low - first.centerWorld),
+                                      glm::abs(item.boundsWorld.high - first.centerWorld));
+    farthest = std::max(farthest, glm::length(reach));
+  }
+  return farthest > 0.0 ? std::exp2(-std::ceil(std::log2(farthest))) : 1.0;
+}
 
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
   ReceiverShading shading;
@@ -169,11 +183,7 @@ Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const Re
   return set;
 }
 
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
-                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
-                   const ShadingInputs* inputs, const ReceiverTarget& target) {
-  gl::Encoder& encoder = context.encoder;
-  const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
+gl::DrawState receiverState(const ReceiverTarget& target) {
   gl::DrawState state;
   state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less,
                  .write = !target.depthIsComplete};
@@ -181,6 +191,15 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   if (target.additive) {
     state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
   }
+  return state;
+}
+
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
+                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* inputs, const ReceiverTarget& target) {
+  gl::Encoder& encoder = context.encoder;
+  const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
+  gl::DrawState state = receiverState(target);
   // Steps of a depth buffer: too few to bring anything forward that is not in the same place.
   constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;

@@ -15,7 +15,10 @@ namespace halfshadow::techniques {
 struct ShadingInputs {
   std::vector<const scene::AreaLight*>
       lights;  ///< one when visibility is evaluated in the same pass, else up to four
+  double scale =
+      1.0;  ///< of the world, by which all receivers are within 1 of the first light: a power of two
 };
+double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers);
 
 /// Lit colours from the visibilities of all lights that an earlier pass left in `visibility`.
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility);
@@ -43,6 +46,9 @@ struct ReceiverProgramSet {
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
                                             ReceiverOutput output, std::span<const DrawItem> items);
+
+/// What drawReceivers() draws with, whatever the item.
+gl::DrawState receiverState(const ReceiverTarget& target);
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.
 /// `shadingInputs`: of ReceiverOutput::shaded, else null.

@@ -154,6 +154,9 @@ class AdditiveWedges final : public Technique {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
@@ -176,6 +179,9 @@ class ProbabilisticWedges final : public Technique {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<ProbabilisticPlanner>();
   }

@@ -92,6 +92,11 @@ class WedgesBlended final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(),
+            shadedApart({{"wedges-blended.cog", "off"}}, "no centres of gravity"),
+            {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

@@ -77,6 +77,12 @@ class WedgesCells final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return cellShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {
+        shadedApart(),
+        shadedApart({{"wedges-cells.bytes", "4"}, {"wedges-cells.route", "gather"}}, "one cell a sub-light"),
+        {.text = "distances to silhouettes in maps", .technique = "shadow-width"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 
