@@ -21,14 +21,14 @@ float hs_pcfGrid() {
     lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
     lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
 #else
-  HS_HIGHP float base = hs_receiver - bias;
-  HS_HIGHP float plane = planeFirst + base;
+  HS_HIGHP float least = -bias;
+  HS_HIGHP float plane = planeFirst - bias;
   for (int y = 0; y < 4; ++y) {
     HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
-    lit += step(min(plane, base), hs_depthValue(texture2D(u_depthMap, uv)));
-    lit += step(min(next.x, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0))));
-    lit += step(min(next.y, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0))));
-    lit += step(min(next.z, base), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
+    lit += step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver));
+    lit += step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
+    lit += step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
+    lit += step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
 #endif
     HS_COUNT(4);
     uv.y += u_map.y;
