@@ -3,6 +3,11 @@
 // Percentage closer filtering over HS_KERNEL x HS_KERNEL neighbouring texels, all taps at texel centres, so
 // that the receiver plane is compared exactly where depth was sampled.
 // Based on: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987, section 4.
+#if HS_KERNEL == 4
+// Few taps are fetched whether they are needed or not: inside an `if` they would cost some compilers a thread.
+#define HS_FETCHES_ALWAYS
+#endif
+
 float hs_pcfGrid() {
   HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
   // First texel centre of the kernel that is centred on the receiver.

@@ -16,9 +16,12 @@ float hs_visibility() { return hs_pcf(); }
 
 float halfshadow_visibility() {
   hs_prepare();
-  // Fetched whether it is needed or not: inside an `if` it would cost some compilers a thread.
+#ifdef HS_FETCHES_ALWAYS
   float lit = hs_meanVisibility();
   return hs_lightMisses ? 1.0 : lit;
+#else
+  return hs_lightMisses ? 1.0 : hs_meanVisibility();
+#endif
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

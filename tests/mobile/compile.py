@@ -48,12 +48,22 @@ class Gpu:
         self.dropped, self.results, self.programs, self.first_dropped = set(), {}, {}, []
 
     def list_programs(self):
+        if not self.dropped:  # the same for all GPUs of a rung
+            shared = os.path.join(os.path.dirname(self.folder), self.rung)
+            if not os.path.exists(os.path.join(shared, "programs.tsv")):
+                subprocess.run([self.options.programs, shared, self.rung], check=True, stderr=subprocess.DEVNULL)
+            self.read_programs(shared)
+            return
         path = os.path.join(self.folder, "dropped")
         with open(path, "w") as file:
             file.writelines(identifier + "\n" for identifier in sorted(self.dropped))
         subprocess.run([self.options.programs, self.folder, self.rung, "--dropped", path], check=True,
                        stderr=subprocess.DEVNULL)
-        with open(os.path.join(self.folder, "programs.tsv")) as file:
+        self.read_programs(self.folder)
+
+    def read_programs(self, folder):
+        self.listed = folder
+        with open(os.path.join(folder, "programs.tsv")) as file:
             lines = [line.rstrip("\n").split("\t") for line in file]
         self.programs = {line[0]: line for line in lines}
 
@@ -87,7 +97,7 @@ class Gpu:
         return self.tools.cell(self.name, self.results[identifier])
 
     def fallbacks(self):
-        with open(os.path.join(self.folder, "fallbacks.tsv")) as file:
+        with open(os.path.join(self.listed, "fallbacks.tsv")) as file:
             taken = {}
             for line in file:
                 technique, _, _, what, why = line.rstrip("\n").split("\t")
