@@ -52,7 +52,8 @@ HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, Halfshadow
                                     .getProcAddressUser = desc->get_proc_address_user,
                                     .forcedOff = desc->forced_off,
                                     .forcedOffCount = desc->forced_off_count,
-                                    .hostState = static_cast<halfshadow::HostState>(desc->host_state)},
+                                    .hostState = static_cast<halfshadow::HostState>(desc->host_state),
+                                    .programProofs = desc->program_proofs},
                                    outcome);
     if (engine) {
       made = std::make_unique<HalfshadowEngine>();
@@ -164,6 +165,10 @@ uint32_t halfshadow_output_texture(const HalfshadowEngine* engine) {
 
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count) {
   return finish(engine, engine->engine->readOutput(rgba, byte_count));
+}
+
+const char* halfshadow_program_proofs(HalfshadowEngine* engine) {
+  return engine->engine->programProofs();
 }
 
 void halfshadow_context_lost(HalfshadowEngine* engine) {

@@ -11,7 +11,8 @@ HS_HIGHP vec2 hs_searchTap(HS_HIGHP vec2 texel, HS_HIGHP float plane, HS_HIGHP f
   return (1.0 - step(min(plane, 0.0) - bias, gap)) * vec2(1.0, gap);
 }
 
-// asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker to receiver.
+// asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker
+// to receiver.
 HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 width = max(asked, vec2(1.0));

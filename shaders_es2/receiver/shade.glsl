@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-// Diffuse shading of receivers for pictures; positions are relative to the first light's centre, world axes, in units in
-// which all receivers are within 1 of it: squares of lengths neither vanish nor overflow.
+// Diffuse shading of receivers for pictures; positions are relative to the first light's centre, world axes, in units
+// in which all receivers are within 1 of it: squares of lengths neither vanish nor overflow.
 uniform HS_HIGHP vec4 u_baseColor;
 uniform HS_HIGHP vec4 u_eye;
 varying HS_HIGHP vec3 v_shadePosition;
@@ -45,7 +45,8 @@ float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 
 // fromLight: from its centre; reference: the distance at which the intensity counts 1; emission: w: 1 where it does so
 // everywhere, and the reference is 0
-vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission, vec3 color) {
+vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission,
+                  vec3 color) {
   HS_HIGHP float inverse = inversesqrt(max(dot(fromLight, fromLight), HS_LEAST));
   float cosine = max(-dot(n.xyz, fromLight) * (inverse * n.w), 0.0) * step(0.0, dot(emission.xyz, fromLight));
   HS_HIGHP float nearness = inverse * reference;

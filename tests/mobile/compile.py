@@ -21,6 +21,13 @@ import sys
 import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+NOTE = ("Compiled, not measured, by Mesa's open compilers, of one receiver pixel with 8-bit visibility at default settings and "
+        "with the GPU's own fallbacks. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; Mali-T: bundles, "
+        "registers, threads; Mali-G: instructions, cycles, threads; Adreno 2xx: alu + tex, registers; other Adreno: "
+        "instructions, full/half registers, waves; Vivante: instructions, registers. L: loops, of which one turn is counted; "
+        "S: spills and fills.")
+TITLES = {"mali400": "Mali-400", "vc4": "VideoCore IV", "mali-t860": "Mali-T860", "mali-g31": "Mali-G31",
+          "adreno220": "Adreno 220", "adreno305": "Adreno 305", "adreno530": "Adreno 530", "gc2000": "GC2000"}
 MOST_ROUNDS = 16  # more than any ladder of fallbacks has steps
 
 
@@ -141,6 +148,7 @@ def path_of(label):
 
 
 def table(gpus):
+    """The largest of a path's programs, where scenes ask for several."""
     rows = {}
     for gpu in gpus:
         for identifier, line in gpu.programs.items():
@@ -149,9 +157,11 @@ def table(gpus):
             if path is None or identifier in gpu.dropped or "SHADED" in label:
                 continue
             casting = "casting" if "CASTING_RECEIVER" in label else ""
+            size = (gpu.results[identifier]["fs"]["i"], gpu.cell(identifier))
             for technique in line[4].split(","):
-                rows.setdefault((technique, path, casting), {}).setdefault(gpu.name, set()).add(gpu.cell(identifier))
-    return rows
+                cells = rows.setdefault((technique, path, casting), {})
+                cells[gpu.name] = max(cells.get(gpu.name, (0, "-")), size)
+    return {key: {name: cell for name, (_, cell) in cells.items()} for key, cells in rows.items()}
 
 
 def main():
@@ -174,20 +184,18 @@ def main():
             wrong += violations(gpu, limits)
         rows = table(gpus)
         taken = {gpu.name: gpu.fallbacks() for gpu in gpus}
-    print("Compiled, not measured. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; T860: bundles, "
-          "registers, threads;\nG31: instructions, cycles, threads; Adreno 2xx: alu + tex, registers; others: "
-          "instructions, registers. L: loops, one turn counted; S: spills.")
+    print(NOTE)
     print("\t".join(["technique", "path", "receivers"] + names))
     for key in sorted(rows):
-        print("\t".join(list(key) + [" | ".join(sorted(rows[key].get(name, {"-"}))) for name in names]))
+        print("\t".join(list(key) + [rows[key].get(name, "-") for name in names]))
     for name in names:
         for technique, steps in taken[name].items():
             print(f"{name}: {technique} -> {'; '.join(steps)}")
     if options.write:
         with open(options.write, "w") as file:
-            json.dump({"label": "compiled, not measured", "gpus": names,
-                       "counts": [{"technique": t, "path": p, "receivers": r or "all others",
-                                   "counts": {n: sorted(v) for n, v in cells.items()}}
+            json.dump({"note": NOTE,
+                       "columns": [{"gpu": name, "title": TITLES.get(name, name)} for name in names],
+                       "counts": [{"technique": t, "path": p, "receivers": r or "all others", "counts": cells}
                                   for (t, p, r), cells in sorted(rows.items())],
                        "fallbacks": taken}, file, indent=1)
             file.write("\n")

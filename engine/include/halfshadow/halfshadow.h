@@ -41,6 +41,7 @@ typedef struct HalfshadowEngineDesc {
   const char* const* forced_off; /* capability names, for testing fallbacks */
   size_t forced_off_count;
   HalfshadowHostState host_state;
+  const char* program_proofs; /* of halfshadow_program_proofs() at an earlier time, or null */
 } HalfshadowEngineDesc;
 
 typedef struct HalfshadowObjectDesc {
@@ -112,6 +113,8 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
                                   HalfshadowReport* report);
 uint32_t halfshadow_output_texture(const HalfshadowEngine* engine);
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count);
+/* Which programs were found to draw, to be kept for the next start; valid until the next call. */
+const char* halfshadow_program_proofs(HalfshadowEngine* engine);
 void halfshadow_context_lost(HalfshadowEngine* engine);
 
 #ifdef __cplusplus
