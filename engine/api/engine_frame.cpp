@@ -148,6 +148,7 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
     if (std::ranges::find(lightNumbers, number) == lightNumbers.end()) lightCaches[number] = {};
   }
   if (lights.size() > 1) frame.shading = api::Shading::apart;
+  if (!proofFailure.empty()) frame.graph.noteSkipped("proof of programs", proofFailure);
   techniques::FramePasses passes{frame.view, frame.graph};
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (Status s = declareLight(frame, passes, i, framePlan); !s) return s;

@@ -55,7 +55,10 @@ Result<bool> Engine::State::provePrograms(const Frame& frame, gl::Counters& spen
     const Status run = proofs.run(*encoder);
     spent = encoder->counters() - before;
     if (!run && context->lost()) return run.error();
-    if (!run) logMessage(LogLevel::warning, "programs could not be proven to draw: " + run.error().message);
+    if (!run) {
+      proofFailure = "unproven: " + run.error().message;
+      logMessage(LogLevel::warning, "programs could not be proven to draw: " + run.error().message);
+    }
   }
   if (const gl::Program* program = firstDropped(proofs, screen)) {
     return Error{ErrorCode::capabilityMissing,

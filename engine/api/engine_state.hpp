@@ -102,8 +102,8 @@ struct Engine::State {
   std::unique_ptr<gl::Context> context;
   HostState hostState = HostState::restore;
   std::unique_ptr<gl::ProgramCache> programs;
-  gl::ProgramProofs proofs;  ///< of `programs`
-  std::string proofsText;
+  gl::ProgramProofs proofs;              ///< of `programs`
+  std::string proofsText, proofFailure;  ///< the latter: why some programs are unproven
   std::unique_ptr<gl::Encoder> encoder;
   std::unique_ptr<framegraph::Executor> executor;
   techniques::SharedTextures shared;

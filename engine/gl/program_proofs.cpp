@@ -73,6 +73,7 @@ Proof ProgramProofs::of(ProofKey key) const {
 Status ProgramProofs::run(Encoder& encoder) {
   std::vector<Asked> asked;
   std::swap(asked, asked_);
+  for (const Asked& each : asked) known_[each.key] = Proof::unproven;
   constexpr std::size_t kBatch = ProofBench::kColumns - 1;
   for (std::size_t first = 0; first < asked.size(); first += kBatch) {
     const std::size_t count = std::min(kBatch, asked.size() - first);
@@ -88,8 +89,10 @@ Status ProgramProofs::run(Encoder& encoder) {
 
 std::string ProgramProofs::text(const device::DriverIdentity& driver) const {
   std::string text = std::string(kFirstLine) + "\n" + driverLine(driver) + "\n";
-  for (const auto& [key, proof] : known_)
-    text += hexOf(key) + (proof == Proof::draws ? " draws\n" : " dropped\n");
+  for (const auto& [key, proof] : known_) {
+    if (proof == Proof::draws) text += hexOf(key) + " draws\n";
+    if (proof == Proof::dropped) text += hexOf(key) + " dropped\n";
+  }
   return text;
 }
 

@@ -31,7 +31,12 @@ struct ProgramUse {
 using ProofKey = std::uint64_t;
 ProofKey proofKeyOf(const ProgramUse& use);
 
-enum class Proof { unknown, draws, dropped };
+enum class Proof {
+  unknown,
+  draws,
+  dropped,
+  unproven  ///< proving it failed: it is taken to draw, and not asked for again
+};
 
 /// What is known, by use, and what is to be found out. Answers hold for one driver and never change.
 class ProgramProofs {
@@ -42,8 +47,8 @@ class ProgramProofs {
   bool pending() const { return !asked_.empty(); }
   /// Draws all that were asked for, a pixel or two each, and reads back once for each 255. Uniforms that
   /// place vertices are set, the others are as linking left them. Errors: those of making a framebuffer;
-  /// driverFault (an OpenGL ES error, or what was never drawn does not read back so): then nothing is known
-  /// of them.
+  /// driverFault (an OpenGL ES error, or what was never drawn does not read back so): then they stay
+  /// unproven.
   Status run(Encoder& encoder);
 
   /// All answers as text, for the next start on the same driver: `driver` is kept in it.

@@ -258,6 +258,21 @@ TEST_F(Proofs, OfAnotherDriverOrCutShortCountForNothing) {
   }
 }
 
+// A driver on which nothing can be proven is taken at its word, and says so; it is not asked again and again.
+TEST_F(Proofs, ThatFailAreNotTriedAgain) {
+  const Image honest = start({}).render(Configuration{"hard"}, Output::visibility);
+  SceneRenderer& blind = start({});
+  // What marks depths that nothing has written.
+  layer().drop([](const DrawnProgram& program) { return program.file().empty(); });
+  EXPECT_EQ(readBacksOf(blind, "hard", Output::visibility), 1u);
+  blind.desc().camera.eye[0] += 0.01;
+  EXPECT_EQ(readBacksOf(blind, "hard", Output::visibility), 0u);
+  blind.desc().camera.eye[0] -= 0.01;
+  EXPECT_EQ(blind.render(Output::visibility).rgba, honest.rgba);
+  EXPECT_TRUE(blind.report().hasSkip("proof of programs", "unproven"));
+  EXPECT_EQ(std::string(blind.engine().programProofs()).find(" dropped"), std::string::npos);
+}
+
 TEST_F(Proofs, DoNotCountAsTheFramesOwnDraws) {
   SceneRenderer& renderer = start({});
   renderer.render(Configuration{"pcf-masked"}, Output::visibility);

@@ -40,6 +40,15 @@ std::vector<ResourceId> readsOf(const PlannedPass& pass) {
   return reads;
 }
 
+/// Whether a proof of one holds for the other: draws of a pass mostly differ in what they draw alone.
+bool usesAlike(const PlannedDraw& a, const PlannedDraw& b) {
+  const device::BlendState &p = a.state.blend, &q = b.state.blend;
+  return !std::holds_alternative<ReceiversDraw>(a.what) && a.program == b.program &&
+         a.textures.size() == b.textures.size() && p.enabled == q.enabled && p.equation == q.equation &&
+         p.source == q.source && p.destination == q.destination && a.state.colorMask == b.state.colorMask &&
+         a.state.depth.test == b.state.depth.test && a.state.depth.write == b.state.depth.write;
+}
+
 gl::Cull culledFaces(const MeshDraw& meshes, const DrawItem& item) {
   if (meshes.faces == MeshDraw::Faces::all) return gl::Cull::none;
   const gl::Cull hidden = hiddenFaces(item, meshes.eyeWorld, meshes.nearReach);
@@ -175,7 +184,7 @@ void LightPasses::addUses(ProgramUses& uses) const {
       const PlannedDraw& draw = draws[i];
       if (const auto* receivers = std::get_if<ReceiversDraw>(&draw.what)) {
         uses.addReceivers(receivers_[pass][i], receivers->shading, receivers->target, descOf);
-      } else {
+      } else if (i == 0 || !usesAlike(draws[i - 1], draw)) {
         uses.add(*programs_[draw.program], draw.state, draw.textures, descOf);
       }
     }
