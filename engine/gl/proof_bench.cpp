@@ -17,9 +17,13 @@ constexpr std::string_view kPaintFragment =
 bool writesColor(const ProgramUse& use) {
   return std::ranges::any_of(use.state.colorMask, [](bool written) { return written; });
 }
+/// A variant's label names its defines.
+bool fetchesFramebuffer(const Program& program) {
+  return program.label().find("HS_USE_FETCH") != std::string::npos;
+}
 /// Whether the colour tells: what is written does not depend on what was there. Else the depth must.
 bool showsByColor(const ProgramUse& use) {
-  return writesColor(use) && !use.state.blend.enabled;
+  return writesColor(use) && !use.state.blend.enabled && !fetchesFramebuffer(*use.program);
 }
 
 /// Texels do not matter, but drivers compile whether a texture has mipmaps or sides that are powers of two.

@@ -273,6 +273,24 @@ TEST_F(Proofs, ThatFailAreNotTriedAgain) {
   EXPECT_EQ(std::string(blind.engine().programProofs()).find(" dropped"), std::string::npos);
 }
 
+// What such programs write depends on what was there, or is nothing at all where their uniforms are 0.
+TEST_F(Proofs, FindThatProgramsDrawWhichAddMultiplyFetchOrDiscard) {
+  for (const std::string merge : {"core", "minmax", "fetch"}) {
+    SceneRenderer& renderer = start({});
+    renderer.render(
+        Configuration{"wedges-blended", {{"wedges-blended.merge", merge}, {"wedges-blended.cog", "on"}}});
+    EXPECT_FALSE(givesReason(kDraws)) << merge;
+  }
+  for (const std::string route : {"scatter", "fetch"}) {
+    start({}).render(Configuration{"wedges-cells", {{"wedges-cells.route", route}}});
+    EXPECT_FALSE(givesReason(kDraws)) << route;
+  }
+  for (const std::string& technique : techniques()) {
+    start({}).render(Configuration{technique});
+    EXPECT_FALSE(givesReason(kDraws)) << technique;
+  }
+}
+
 TEST_F(Proofs, DoNotCountAsTheFramesOwnDraws) {
   SceneRenderer& renderer = start({});
   renderer.render(Configuration{"pcf-masked"}, Output::visibility);
