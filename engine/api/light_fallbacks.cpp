@@ -32,6 +32,7 @@ LightFallbacks::Choice LightFallbacks::choose(techniques::Technique& asked,
     settingsRevision_ = settings.revision();
     steps_.clear();
   }
+  constexpr std::size_t kKept = 4;
   Choice choice{&asked, &settings, {}};
   while (choice.technique != nullptr) {
     const Steps* steps = stepsOf(*choice.technique);
@@ -49,7 +50,7 @@ LightFallbacks::Choice LightFallbacks::choose(techniques::Technique& asked,
       choice.technique = techniqueNamed(taken.technique);
       choice.settings = &settings;
     } else {
-      if (changed_.size() == 2) changed_.erase(changed_.begin());
+      if (changed_.size() == kKept) changed_.erase(changed_.begin());
       changed_.push_back(std::make_unique<techniques::Settings>(settings.with(taken.settings)));
       choice.settings = changed_.back().get();
       break;

@@ -22,7 +22,7 @@ class LightFallbacks {
   using TechniqueNamed = std::function<techniques::Technique*(std::string_view id)>;
   struct Choice {
     techniques::Technique* technique = nullptr;              ///< null: nothing is left
-    const techniques::Settings* settings = nullptr;          ///< valid until the next choose() but one
+    const techniques::Settings* settings = nullptr;          ///< valid for two more calls of choose()
     std::vector<std::pair<std::string, std::string>> notes;  ///< by technique given up: its id, and why
   };
   Choice choose(techniques::Technique& asked, const techniques::Settings& settings,
