@@ -21,7 +21,16 @@ bool castsAlike(const scene::AreaLight& a, const scene::AreaLight& b) {
 }  // namespace
 
 void Engine::State::setLights(std::vector<scene::AreaLight> checked) {
-  if (checked == lights) return;
+  const bool none = checked.empty();
+  if (none) checked.push_back({.intensity = 0.0f});
+  if (checked == lights && hasLights == !none) return;
+  if (hasLights == none) {
+    // The dark light that stands for none is nobody's light of before or after.
+    lights.clear();
+    lightRevisions.clear();
+    lightNumbers.clear();
+  }
+  hasLights = !none;
   std::vector<std::uint32_t> numbers(checked.size(), kNoNumber);
   std::vector<std::uint64_t> revisions(checked.size(), 0);
   std::vector<bool> known(lights.size(), false);
@@ -86,7 +95,8 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   fitLight(index, plan);
   api::updateItems(cache.casters, lists, plan.casters, api::ItemRole::caster);
   techniques::Technique* used = technique;
-  if (!plan.active || cache.fit.empty || plan.casters.empty()) {
+  const bool shadowsNothing = !plan.active || cache.fit.empty || plan.casters.empty();
+  if (shadowsNothing) {
     frame.graph.noteSkipped(nameOf(index) + " shadows",
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
@@ -104,7 +114,9 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   }
   api::updateItems(cache.shadowlessReceivers, lists, shadowless, api::ItemRole::shadowless);
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
-  const double receiverFarDistance = receiverReach(cache, sceneKey);
+  double receiverFarDistance = receiverReach(cache, sceneKey);
+  if (frame.desc.receivers == Receivers::unknown)
+    receiverFarDistance = std::max(receiverFarDistance, 4.0 * cache.fit.farthestCaster);
   std::string splitReason;
   const planner::SubLights* subLights = cache.split.update({.light = cache.light,
                                                             .fit = cache.fit,
@@ -150,6 +162,8 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
+  target.allLit = shadowsNothing;
+  chooseForward(target, cache);
   if (hostEvaluates) {
     for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
     return {};

@@ -30,10 +30,18 @@ struct EngineObject {
   bool mirrored = false;
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
+  /// What the host gave, to be uploaded again on another context.
+  struct BaseColorImage {
+    int width = 0, height = 0;
+    std::vector<std::uint8_t> rgba;  ///< empty: none
+  } baseColorImage;
   gl::Texture baseColorTexture;
   std::uint64_t revision = 0;
   mutable CutReceiver cutReceiver;  ///< of the last frame
 
+  /// Of `baseColorImage`, where there is one. Errors: outOfMemory, contextLost.
+  Status uploadBaseColor(gl::Context& context);
+  void forgetUploads();  ///< the context is gone
   /// Sets worldFromObject and what follows from it and from the mesh.
   void place(const glm::dmat4& worldFromHostNow);
   /// For fits; its points are found once for a mesh, and placed when it has moved.

@@ -7,6 +7,8 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -56,6 +58,8 @@ struct LightCache {
   api::LightSplit split;
   api::Refusal refusal;
   api::LightFallbacks fallbacks;
+  techniques::ForwardVariant forward;  ///< of the last frame in which it shadowed something
+  std::uint64_t forwardOf = 0;         ///< of the technique and settings that this was with; 0 = none
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };
@@ -64,6 +68,8 @@ struct FrameLight {
   techniques::Technique* technique = nullptr;
   techniques::ReceiverShading shading;
   techniques::ReceiverProgramSet programs;
+  techniques::ForwardVariant forward;
+  bool allLit = false;  ///< it shadows nothing: a program made from another text is right too
 };
 
 /// Lives from declaration to the next frame; the lists that it draws are the engine's.
@@ -116,7 +122,9 @@ struct Engine::State {
   api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;
   std::uint64_t nextRevision = 1;
+  /// Of the host's; without one a dark light stands here, which shadows nothing.
   std::vector<scene::AreaLight> lights;
+  bool hasLights = false;
   std::vector<std::uint64_t> lightRevisions;
   /// By which lights are named and known again, whatever their places: below kMaxLights, each once.
   std::vector<std::uint32_t> lightNumbers;
@@ -125,13 +133,32 @@ struct Engine::State {
   api::ItemList receivers;
   std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
   std::vector<std::uint32_t> shadowless;
+  gl::Counters uploadsTold;   ///< at the end of the last frame
   std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;
   std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
 
+  // Hosts that draw receivers (engine_forward.cpp).
   techniques::ForwardTexts forwardTexts;
+  std::map<std::uint32_t, gl::Program> forwardPrograms;  ///< looked up, by name
+  techniques::ForwardUnits forwardUnits{};               ///< since the last render()
+  std::uint64_t forwardBindings = 0;                     ///< counts frames that were drawn
+  /// With the technique's text, or where the light shadows nothing the one that it had before.
+  void chooseForward(FrameLight& target, LightCache& cache) const;
+  /// Errors: those of Engine::bindForward about the program.
+  Result<gl::Program*> forwardProgram(std::uint32_t name, const FrameLight& light);
 
+  // What the context was made with, for the next one.
+  void* (*getProcAddress)(const char* name, void* user) = nullptr;
+  void* getProcAddressUser = nullptr;
+  gl::ContextOptions contextOptions;
+  std::string shaderFolder;
+
+  /// Of the context, with its programs, passes and meshes (engine_create.cpp).
+  static Engine* create(const EngineDesc& desc, Outcome& outcome);
+  Status openContext();
+  Status uploadObjects();
   Outcome fail(const Error& error);
   Status checkForward(std::size_t light) const;
   gl::HostStatePolicy policy() const;
@@ -140,7 +167,13 @@ struct Engine::State {
   std::uint64_t sceneRevision() const { return changes + settings->revision(); }
   LightCache& cacheOf(std::size_t light) { return lightCaches[lightNumbers[light]]; }
   std::string nameOf(std::size_t light) const { return "light " + std::to_string(lightNumbers[light]); }
+  Outcome setTechnique(const char* id);
+  Outcome setLights(const LightDesc* descs, std::size_t count);
   void setLights(std::vector<scene::AreaLight> checked);
+  SettingRecord settingRecord(std::size_t index);
+  FrameReport frameReport();
+  Outcome addObject(const ObjectDesc& desc, ObjectId& id);
+  Outcome setVertices(ObjectId id, const MeshDesc& desc);
   /// Its mesh or its place is another.
   void changed(EngineObject& object) {
     object.revision = nextRevision++;
@@ -181,8 +214,39 @@ struct Engine::State {
   /// Draws of an unchanged frame what only the host could have kept. False when that takes a whole frame.
   Result<bool> drawUnchanged();
   Status renderFrame(const RenderDesc& desc);
-  std::uint64_t memoryBytes() const;
   std::vector<ImageRecord> images() const;  ///< of the last frame (engine_images.cpp)
+  Outcome render(const RenderDesc& desc);
+  Outcome readOutput(std::uint8_t* rgba, std::size_t byteCount);
+  std::uint64_t memoryBytes() const { return context->storedBytes(); }
+
+  // What can be made anew (engine_memory.cpp).
+  /// Forgets all but objects, lights and settings.
+  void forgetDerived() noexcept;
+  void forgetDriverWork() noexcept;
+  /// Frees what a second attempt can do without; false when nothing is left to free.
+  bool freeForRetry(int attempt) noexcept;
+  /// The public interface throws nothing: a call without memory fails and leaves a usable engine.
+  template <typename Call>
+  Outcome guarded(Call&& call) noexcept;
 };
+
+template <typename Call>
+Outcome Engine::State::guarded(Call&& call) noexcept {
+  try {
+    const bool wasLost = context->lost();
+    const Outcome outcome = call();
+    if (!wasLost && context->lost()) {
+      return {ErrorCode::contextLost,
+              "the context was lost during the call; make a new one current and call contextRestored"};
+    }
+    return outcome;
+  } catch (const std::bad_alloc&) {
+    forgetDerived();
+    return {ErrorCode::outOfMemory, "the system has no memory left for this call; free some and call again"};
+  } catch (...) {
+    forgetDerived();
+    return {ErrorCode::internal, "an unexpected exception inside the engine; please report it"};
+  }
+}
 
 }  // namespace halfshadow

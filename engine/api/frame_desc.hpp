@@ -13,6 +13,8 @@
 namespace halfshadow::api {
 
 scene::Camera toCamera(const CameraDesc& desc);
+/// Enums and numbers. Errors: invalidArgument.
+Status checkFrameDesc(const RenderDesc& desc);
 /// Errors: invalidArgument.
 Status checkTarget(const TargetDesc& target, const device::Limits& limits);
 /// Whether shading reads visibilities from the screen: of several lights, or of one where a program that does

@@ -42,26 +42,46 @@ Result<std::shared_ptr<ObjectMesh>> ObjectMesh::copy(gl::Context& context) const
   return made;
 }
 
-Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals) {
-  (void)solidity();  // of the first positions
-  animated_ = true;
-  mesh_.positions = std::move(positions);
-  recenteredBy_ = scene::recenter(mesh_);
-  bounds_ = scene::boundsOf(mesh_);
-  supportingPlanes_.reset();
-  enclosing_ = {};
-  if (normals != nullptr) {
-    for (std::size_t i = 0; i < mesh_.normals.size(); ++i) mesh_.normals[i] = glm::make_vec3(normals + 3 * i);
-  }
-  if (!scene::turnShellsOutward(mesh_)) {
-    geometry_.positionsChanged();
-    return gpu_.update(context, mesh_);
-  }
-  // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
-  geometry_ = {};
+Status ObjectMesh::upload(gl::Context& context) {
   auto gpu = techniques::GpuMesh::create(context, mesh_);
   if (!gpu) return gpu.error();
   gpu_ = std::move(gpu).value();
+  return {};
+}
+
+Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals) {
+  (void)solidity();  // of the first positions
+  scene::TriangleMesh changed = mesh_;
+  changed.positions = std::move(positions);
+  const glm::dvec3 recenteredBy = scene::recenter(changed);
+  if (normals != nullptr) {
+    for (std::size_t i = 0; i < changed.normals.size(); ++i)
+      changed.normals[i] = glm::make_vec3(normals + 3 * i);
+  }
+  // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
+  const bool turned = scene::turnShellsOutward(changed);
+  if (turned) {
+    auto gpu = techniques::GpuMesh::create(context, changed);
+    if (!gpu) return gpu.error();
+    if (context.lost()) return context.checkErrors("replacing vertices");
+    gpu_ = std::move(gpu).value();
+    geometry_ = {};
+  } else {
+    Status updated = gpu_.update(context, changed);
+    if (updated && context.lost()) updated = context.checkErrors("replacing vertices");
+    if (!updated) {
+      // What was sent already is sent again as it was; where that fails too, the picture tells of both.
+      (void)gpu_.update(context, mesh_).ok();
+      return updated;
+    }
+    geometry_.positionsChanged();
+  }
+  animated_ = true;
+  mesh_ = std::move(changed);
+  recenteredBy_ = recenteredBy;
+  bounds_ = scene::boundsOf(mesh_);
+  supportingPlanes_.reset();
+  enclosing_ = {};
   return {};
 }
 

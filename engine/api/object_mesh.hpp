@@ -24,7 +24,11 @@ class ObjectMesh {
   static Result<std::shared_ptr<ObjectMesh>> create(gl::Context& context, const MeshDesc& desc);
   /// One with other positions (and normals) at the same vertices.
   Result<std::shared_ptr<ObjectMesh>> copy(gl::Context& context) const;
-  /// Replaces positions, and normals where both have them: `desc` as in Engine::setVertices, checked.
+  /// On another context. Errors: outOfMemory, contextLost.
+  Status upload(gl::Context& context);
+  void forgetUpload() { gpu_ = {}; }
+  /// Replaces positions, and normals where both have them: `desc` as in Engine::setVertices, checked. Nothing
+  /// changes when it fails.
   Status setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals);
 
   const scene::TriangleMesh& mesh() const { return mesh_; }  ///< recentred

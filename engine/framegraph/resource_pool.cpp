@@ -66,6 +66,15 @@ void ResourcePool::beginRun() {
   for (const auto& image : transient_) image->taken = false;
 }
 
+void ResourcePool::repeatRun() {
+  const auto repeat = [&](Image& image) {
+    if (image.lastRun == run_) ++image.lastRun;
+  };
+  for (const auto& [name, image] : persistent_) repeat(*image);
+  for (const auto& image : transient_) repeat(*image);
+  ++run_;
+}
+
 Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& desc) {
   const device::Capabilities& capabilities = context_.capabilities();
   const bool isTexture = desc.storage == Storage::texture;
@@ -183,9 +192,13 @@ std::uint64_t ResourcePool::memoryBytes() const {
   return bytes;
 }
 
+bool ResourcePool::isStale(const Image& image, int runs) const {
+  return image.lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+}
+
 void ResourcePool::trim(int runs) {
   const auto stale = [&](const Image& image) {
-    const bool old = image.lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+    const bool old = isStale(image, runs);
     if (old) forgetFramebuffersOf(image);
     return old;
   };

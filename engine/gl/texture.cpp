@@ -86,13 +86,16 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
   }
   Texture texture;
   texture.desc_ = desc;
+  if (Status status = context.checkMemory(texture.byteCount(), what); !status) return status.error();
   texture.object_ = Object<ObjectKind::texture>::create(context);
-  if (!texture.object_) return lostError(what);
+  if (!texture.object_) return noNameError(context, what);
 
   const Functions& gl = context.functions();
-  drainErrors(gl);
   context.noteBindingsChanged();
   gl.bindTexture(GL_TEXTURE_2D, texture.name());
+  // Without the binding another texture would be written.
+  context.collectErrors();
+  if (context.hasFaults()) return context.checkErrors(what.c_str()).error();
   gl.pixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minFilterOf(desc.filter));
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magFilterOf(desc.filter));
@@ -109,7 +112,8 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
   }
-  if (Status status = allocationStatus(gl, what); !status) return status.error();
+  if (Status status = allocationStatus(context, what); !status) return status.error();
+  texture.object_.setStoredBytes(texture.byteCount());
   if (pixels) {
     context.uploads().textureBytes +=
         encoding.bytesPerTexel * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);

@@ -5,7 +5,7 @@
  * units, ownership and errors are the same.
  *
  * Every struct begins with `struct_size`: set it to sizeof of the struct. All other fields may be zero; zero
- * means the default where one is given. Messages and reports live until the engine's next call. All calls
+ * means the default where one is given. An engine that is null is refused. Messages and reports live until the engine's next call. All calls
  * come from the thread on which the OpenGL ES context is current.
  */
 #ifndef HALFSHADOW_H
@@ -85,6 +85,8 @@ typedef struct HalfshadowRenderDesc {
   float clear_color[4];
 } HalfshadowRenderDesc;
 
+typedef enum HalfshadowTrim { HALFSHADOW_TRIM_UNUSED = 0, HALFSHADOW_TRIM_EVERYTHING = 1 } HalfshadowTrim;
+
 typedef struct HalfshadowReport {
   size_t struct_size;
   uint64_t passes, draws, triangles, framebuffer_switches;
@@ -116,6 +118,10 @@ HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, 
 /* Which programs were found to draw, to be kept for the next start; valid until the next call. */
 const char* halfshadow_program_proofs(HalfshadowEngine* engine);
 void halfshadow_context_lost(HalfshadowEngine* engine);
+HalfshadowError halfshadow_context_restored(HalfshadowEngine* engine);
+HalfshadowError halfshadow_trim(HalfshadowEngine* engine, HalfshadowTrim what);
+/* 0: no limit. */
+HalfshadowError halfshadow_set_memory_limit(HalfshadowEngine* engine, uint64_t bytes);
 
 #ifdef __cplusplus
 }

@@ -119,11 +119,20 @@ struct TargetDesc {
 
 enum class Timing { off, perPass };
 
+/// Which receivers the light passes are made for. Casters that shadow none of them are left out.
+enum class Receivers {
+  seen,      ///< objects that `camera` sees
+  anywhere,  ///< objects wherever they are: the host draws other views of them from the same frame
+  unknown    ///< also surfaces that the engine was never told of, as far from the light as four times the
+             ///< farthest caster
+};
+
 struct RenderDesc {
   CameraDesc camera;
   TargetDesc target;
   Output output = Output::shaded;
   Timing timing = Timing::off;
+  Receivers receivers = Receivers::seen;
   float clearColor[4] = {0.045f, 0.055f, 0.075f, 1.0f};  ///< of shaded output
 };
 
@@ -173,7 +182,26 @@ struct ForwardRecord {
   const char* fragmentGlsl = "";
   int textureUnits = 0;  ///< that bindForward uses, at most
   bool readsFacetNormal =
-      false;  ///< the host must pass the triangle's normal (derivatives or highp are missing)
+      false;                 ///< the host must pass the triangle's normal (derivatives or highp are missing)
+  std::uint64_t serial = 0;  ///< of the texts, see ForwardSerials::source
+};
+
+/// Numbers to compare with those of the frame before.
+struct ForwardSerials {
+  std::uint64_t source = 0;    ///< changes when the texts do: a program made from others is refused
+  std::uint64_t bindings = 0;  ///< changes when uniforms or textures may have: bindForward is due again
+};
+
+/// What the engine holds on the GPU, for all techniques and objects together.
+struct MemoryRecord {
+  std::uint64_t bytes = 0;       ///< of textures, renderbuffers and buffers, by their formats
+  std::uint64_t limitBytes = 0;  ///< of setMemoryLimit(); 0 = none
+  int textures = 0, renderbuffers = 0, framebuffers = 0, buffers = 0, programs = 0;
+};
+
+enum class Trim {
+  unused,     ///< what the last frame did not need: images of other sizes, programs of other techniques
+  everything  ///< all but meshes and their textures: the next frame makes anew what it needs
 };
 
 struct CapabilityRecord {

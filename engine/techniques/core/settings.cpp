@@ -22,6 +22,12 @@ bool parse(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
 }
+/// Digits alone, of which the first of several is not 0, behind a minus or not.
+bool isPlainInteger(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || (text.size() > 1 && text.front() == '0')) return false;
+  return std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
+}
 }  // namespace
 
 std::vector<SettingInfo> commonSettings() {
@@ -122,8 +128,8 @@ Status Settings::set(std::string_view key, std::string_view value) {
     }
   } else {
     double parsed = 0;
-    const bool whole =
-        info->type != SettingType::integer || (parse(value, parsed) && parsed == std::floor(parsed));
+    // Integers reach shaders as they are written.
+    const bool whole = info->type != SettingType::integer || isPlainInteger(value);
     if (!parse(value, parsed) || !whole || parsed < info->low || parsed > info->high) {
       return Error{ErrorCode::invalidArgument,
                    info->key + "=" + std::string(value) + ": give " +

@@ -55,18 +55,17 @@ gl::Cull culledFaces(const MeshDraw& meshes, const DrawItem& item) {
   return meshes.faces == MeshDraw::Faces::turned ? turnedRound(hidden) : hidden;
 }
 
-/// Draws over the viewport what `draw` says of the image as the CPU changed it. Without memory for the copy
-/// the target stays as it was cleared.
+/// Draws over the viewport what `draw` says of the image as the CPU changed it.
 void drawReadBack(framegraph::PassContext& context, gl::Program& program, const gl::Texture& image,
                   const PlannedDraw& draw, const ReadBackDraw& back) {
   gl::Context& gl = context.encoder.context();
   auto framebuffer = gl::Framebuffer::create(gl, {.color = &image});
-  if (!framebuffer) return;
+  if (!framebuffer) return gl.noteFault(framebuffer.error().message);
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(back.width) * back.height * 4);
   context.encoder.readPixels(*framebuffer, {0, 0, back.width, back.height}, rgba.data());
   back.change(rgba);
   auto changed = gl::Texture::create(gl, {.width = back.width, .height = back.height}, rgba.data());
-  if (!changed) return;
+  if (!changed) return gl.noteFault(changed.error().message);
   context.encoder.useProgram(program);
   const gl::TextureBinding binding{program.samplerUnit(back.sampler), &*changed};
   context.encoder.bindTextures({&binding, 1});

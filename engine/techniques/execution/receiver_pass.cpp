@@ -3,8 +3,10 @@
 #include "techniques/execution/receiver_pass.hpp"
 
 #include <algorithm>
+#include <cstdio>
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "base/keys.hpp"
 #include "techniques/execution/gpu_mesh.hpp"
 
 namespace halfshadow::techniques {
@@ -246,28 +248,68 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   }
 }
 
-Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading) {
-  std::vector<std::string> defines = shading.defines;
+ForwardVariant forwardVariant(const ReceiverShading& shading) {
+  ForwardVariant variant{.fragmentFile = shading.fragmentFile,
+                         .defines = shading.defines,
+                         .usesFacetPlane = shading.usesFacetPlane};
+  const auto hashed = [](std::string_view text) {
+    std::uint64_t key = 0xcbf29ce484222325ull;  // as good as any
+    for (const char c : text) key = combineKeys(key, static_cast<std::uint8_t>(c));
+    return key;
+  };
+  variant.key = combineKeys(hashed(shading.fragmentFile), shading.usesFacetPlane ? 1 : 2);
+  for (const std::string& define : shading.defines) variant.key = combineKeys(variant.key, hashed(define));
+  for (const TextureRead& texture : shading.textures) variant.samplers.push_back(texture.sampler);
+  if (variant.key == 0) variant.key = 1;
+  return variant;
+}
+
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ForwardVariant& variant) {
+  std::vector<std::string> defines = variant.defines;
   defines.push_back("HS_FORWARD");
-  if (shading.usesFacetPlane && needsFacetStream(programs.capabilities()))
+  if (variant.usesFacetPlane && needsFacetStream(programs.capabilities()))
     defines.push_back("HS_FACET_NORMAL");
-  auto sources = programs.assemble({"receiver/forward.vert", shading.fragmentFile, std::move(defines)});
+  auto sources = programs.assemble({"receiver/forward.vert", variant.fragmentFile, std::move(defines)});
   if (!sources) return sources.error();
   const auto withoutVersion = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
-  return ForwardTexts{withoutVersion(sources->vertex), withoutVersion(sources->fragment)};
+  char key[24];
+  std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(variant.key));
+  const std::string lit = std::string(gl::Program::kTextKeyPrefix) + key;
+  // The maximum, beside the choice, keeps the uniform where the technique's function is a constant.
+  return ForwardTexts{withoutVersion(sources->vertex),
+                      "#define halfshadow_visibility hs_techniqueVisibility\n" +
+                          withoutVersion(sources->fragment) +
+                          "#undef halfshadow_visibility\nuniform mediump float " + lit +
+                          ";\nfloat halfshadow_visibility() {\n  float seen = hs_techniqueVisibility();\n"
+                          "  return max(" +
+                          lit + " > 0.5 ? 1.0 : seen, " + lit + ");\n}\n"};
 }
 
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
-                 const glm::dmat4& worldFromObject, int firstTextureUnit,
-                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf) {
+                 const ForwardBinding& binding) {
+  program.setTextKeyUniform(context, 0.0f);
   program.set(context, shading.uniforms);
-  setMapUniforms(context, program, shading, worldFromObject, needsFacetStream(context.capabilities()));
-  int unit = firstTextureUnit;
+  setMapUniforms(context, program, shading, binding.worldFromObject,
+                 needsFacetStream(context.capabilities()));
+  int unit = binding.firstTextureUnit;
   for (const TextureRead& texture : shading.textures) {
-    const gl::Texture* bound = texture.texture ? texture.texture : textureOf(texture.resource);
-    if (!program.has(texture.sampler) || bound == nullptr) continue;
-    bound->bind(context, unit);
+    const gl::Texture* read =
+        texture.texture ? texture.texture : binding.executor.texture(binding.graph, texture.resource);
+    if (!program.has(texture.sampler) || read == nullptr) continue;
+    std::uint32_t& known = binding.bound[static_cast<std::size_t>(unit) % binding.bound.size()];
+    if (known != read->name()) read->bind(context, unit);
+    known = read->name();
     program.setSampler(context, texture.sampler, unit++);
+  }
+}
+
+void bindForwardLit(gl::Context& context, gl::Program& program, const ForwardVariant& variant,
+                    int firstTextureUnit) {
+  program.setTextKeyUniform(context, 1.0f);
+  // Samplers of unlike types may not share a unit, though nothing is read from it.
+  int unit = firstTextureUnit;
+  for (const device::UniformKey sampler : variant.samplers) {
+    if (program.has(sampler)) program.setSampler(context, sampler, unit++);
   }
 }
 

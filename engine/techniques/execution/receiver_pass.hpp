@@ -5,6 +5,8 @@
 /// taps, or shaded in one forward pass.
 #pragma once
 
+#include <array>
+
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
 #include "techniques/core/light_scene.hpp"
@@ -56,15 +58,35 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
                    const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
                    const ShadingInputs* shadingInputs, const ReceiverTarget& target);
 
+/// What decides the texts of a host's own shaders.
+struct ForwardVariant {
+  std::string fragmentFile;
+  std::vector<std::string> defines;
+  std::vector<device::UniformKey> samplers;
+  bool usesFacetPlane = false;
+  std::uint64_t key = 0;  ///< of the texts; never 0
+};
+ForwardVariant forwardVariant(const ReceiverShading& shading);
 /// Texts for a host's own shaders, see ForwardRecord. Errors: shaderFailed.
 struct ForwardTexts {
   std::string vertex, fragment;
 };
-Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading);
-/// Where a host's program gets what the fragment text reads; the program is current.
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ForwardVariant& variant);
+/// Names by unit of the textures that hosts' programs read, as far as they are known to be bound.
+using ForwardUnits = std::array<std::uint32_t, 32>;
+/// Where a host's program, which is current, gets what the fragment text reads.
+struct ForwardBinding {
+  const glm::dmat4& worldFromObject;
+  int firstTextureUnit = 0;
+  ForwardUnits& bound;
+  const framegraph::Executor& executor;
+  const framegraph::Graph& graph;
+};
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
-                 const glm::dmat4& worldFromObject, int firstTextureUnit,
-                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf);
+                 const ForwardBinding& binding);
+/// The same of a light that shadows nothing: everything is lit, and no image is read.
+void bindForwardLit(gl::Context& context, gl::Program& program, const ForwardVariant& variant,
+                    int firstTextureUnit);
 
 /// Resources that the pass must list as read.
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading);
