@@ -91,13 +91,20 @@ HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const Halfshadow
                  .vertexCount = desc->vertex_count,
                  .indices = desc->indices,
                  .indexCount = desc->index_count,
-                 .normals = desc->normals};
+                 .normals = desc->normals,
+                 .texcoords = desc->texcoords,
+                 .colors = desc->colors};
   const bool placed =
       std::any_of(desc->world_from_object, desc->world_from_object + 16, [](double e) { return e != 0; });
   if (placed) copy(desc->world_from_object, object.worldFromObject);
   object.casts = desc->casts != 0;
   object.receives = desc->receives != 0;
   copy(desc->base_color, object.baseColor);
+  object.baseColorPixels = desc->base_color_pixels;
+  object.baseColorWidth = desc->base_color_width;
+  object.baseColorHeight = desc->base_color_height;
+  object.baseColorChannels = desc->base_color_channels ? desc->base_color_channels : 4;
+  object.alphaCutoff = desc->alpha_cutoff;
   return finish(engine, engine->engine->addObject(object, *id));
 }
 
@@ -128,6 +135,8 @@ HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const Halfshadow
     copy(lights[i].color, descs[i].color);
     descs[i].intensity = lights[i].intensity;
     descs[i].referenceDistance = lights[i].reference_distance;
+    descs[i].innerConeRadians = lights[i].inner_cone_radians;
+    descs[i].outerConeRadians = lights[i].outer_cone_radians;
   }
   return finish(engine, engine->engine->setLights(descs, count));
 }

@@ -20,8 +20,12 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
+          .alphaMask = object.isCutOut() ? &object.alphaMask : nullptr,
+          .alphaCutoff = object.alphaCutoff,
+          .vertexColors = !mesh.mesh().colors.empty(),
           .boundsWorld = object.boundsWorld,
-          .closed = statistics.closed() && statistics.nonManifoldEdges == 0,
+          // Through holes its inside is seen.
+          .closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0,
           .solidity = object.casts ? mesh.solidity() : 1.0f,
           .mirrored = object.mirrored,
           .facetStream = mesh.gpu().hasFacetStream(),
@@ -69,7 +73,7 @@ Status update(gl::Context& context, const EngineObject& object, const ReceiverVi
     cut.key = key;
     return {};
   }
-  auto gpu = techniques::GpuMesh::create(context, *mesh);
+  auto gpu = techniques::GpuMesh::create(context, *mesh, object.meshExtras());
   if (!gpu) return gpu.error();
   cut.key = key;
   cut.needed = true;

@@ -93,6 +93,14 @@ Outcome Engine::State::setLights(const LightDesc* descs, std::size_t count) {
       return state.fail(
           {ErrorCode::invalidLight, "the light's reference distance is negative or not finite"});
     }
+    const double inner = desc.innerConeRadians, outer = desc.outerConeRadians;
+    constexpr double kWidest = 1.5707963267948968;
+    if (outer != 0.0 && !(inner >= 0.0 && inner < outer && outer <= kWidest)) {
+      return state.fail({ErrorCode::invalidLight,
+                         "the light's cones need 0 <= inner < outer <= pi / 2 radians, or an outer of 0"});
+    }
+    light->innerConeRadians = inner;
+    light->outerConeRadians = outer;
     checked.push_back(*light);
   }
   state.setLights(std::move(checked));

@@ -135,7 +135,7 @@ Status Engine::State::uploadObjects() {
     if (uploaded.insert(object.mesh.get()).second) {
       if (Status s = object.mesh->upload(*context); !s) return s;
     }
-    if (Status s = object.uploadBaseColor(*context); !s) return s;
+    if (Status s = object.uploadTextures(*context); !s) return s;
   }
   return context->checkErrors("making the objects again");
 }

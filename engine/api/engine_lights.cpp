@@ -87,6 +87,16 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   cache.reachKey = 0;
 }
 
+void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string& technique,
+                              std::span<const techniques::DrawItem> casters) const {
+  const auto cut = std::ranges::count_if(
+      casters, [](const techniques::DrawItem& item) { return item.alphaMask != nullptr; });
+  if (cut == 0) return;
+  frame.graph.noteSkipped(
+      nameOf(light) + " holes of " + std::to_string(cut) + " casters",
+      technique + " takes casters by their outlines: what alpha cuts out of them casts too");
+}
+
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                                    const planner::FramePlan& framePlan) {
   const planner::LightPlan& plan = framePlan.lights[index];
@@ -158,7 +168,11 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   if (choice->settings->choice("shading") == "apart") frame.shading = api::Shading::apart;
   auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
   if (!prepared) return prepared.error();
+<<<<<<< HEAD
   target.technique = *prepared;
+=======
+  if ((*prepared)->info().takesOutlines) noteHoles(frame, index, (*prepared)->info().id, scene.casters);
+>>>>>>> 9897327 (scenes: read what glTF files use)
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();

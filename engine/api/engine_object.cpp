@@ -6,29 +6,20 @@
 
 namespace halfshadow {
 
-Status EngineObject::uploadBaseColor(gl::Context& context) {
-  const BaseColorImage& image = baseColorImage;
-  if (image.rgba.empty()) return {};
-  const auto powerOfTwo = [](int n) { return (n & (n - 1)) == 0; };
-  // ES 2.0: others have no mips and no repeat.
-  const bool mips = powerOfTwo(image.width) && powerOfTwo(image.height);
-  auto texture =
-      gl::Texture::create(context,
-                          {.width = image.width,
-                           .height = image.height,
-                           .filter = mips ? gl::TextureFilter::linearMipLinear : gl::TextureFilter::linear,
-                           .wrap = mips ? gl::TextureWrap::repeat : gl::TextureWrap::clampToEdge,
-                           .mipmapped = mips},
-                          image.rgba.data());
-  if (!texture) return texture.error();
-  if (mips) texture->generateMipmaps(context);
-  baseColorTexture = std::move(texture).value();
+Status EngineObject::uploadTextures(gl::Context& context) {
+  auto colors = api::textureOf(context, baseColorImage);
+  if (!colors) return colors.error();
+  auto mask = api::textureOf(context, alphaMaskImage);
+  if (!mask) return mask.error();
+  baseColorTexture = std::move(colors).value();
+  alphaMask = std::move(mask).value();
   return {};
 }
 
 void EngineObject::forgetUploads() {
   mesh->forgetUpload();
   baseColorTexture = {};
+  alphaMask = {};
   cutReceiver = {};
 }
 

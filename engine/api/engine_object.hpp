@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/object_mesh.hpp"
+#include "api/object_textures.hpp"
 #include "gl/objects.hpp"
 #include "planner/light_fit.hpp"
 
@@ -31,17 +32,20 @@ struct EngineObject {
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
   /// What the host gave, to be uploaded again on another context.
-  struct BaseColorImage {
-    int width = 0, height = 0;
-    std::vector<std::uint8_t> rgba;  ///< empty: none
-  } baseColorImage;
+  api::SurfaceImage baseColorImage, alphaMaskImage;
   gl::Texture baseColorTexture;
+  gl::Texture alphaMask;     ///< of what alpha cuts holes into; see techniques::DrawItem
+  float alphaCutoff = 0.0f;  ///< of mask times vertex colour
   std::uint64_t revision = 0;
   mutable CutReceiver cutReceiver;  ///< of the last frame
 
-  /// Of `baseColorImage`, where there is one. Errors: outOfMemory, contextLost.
-  Status uploadBaseColor(gl::Context& context);
+  /// Of the images that there are. Errors: outOfMemory, contextLost.
+  Status uploadTextures(gl::Context& context);
   void forgetUploads();  ///< the context is gone
+  bool isCutOut() const { return !alphaMaskImage.bytes.empty(); }
+  techniques::MeshExtras meshExtras() const {
+    return isCutOut() ? techniques::MeshExtras::alpha : techniques::MeshExtras::none;
+  }
   /// Sets worldFromObject and what follows from it and from the mesh.
   void place(const glm::dmat4& worldFromHostNow);
   /// For fits; its points are found once for a mesh, and placed when it has moved.

@@ -7,6 +7,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
+#include "api/object_textures.hpp"
 
 namespace halfshadow {
 namespace {
@@ -29,33 +30,13 @@ Result<glm::dmat4> checkedTransform(const double matrix[16]) {
   return transform;
 }
 
-Result<EngineObject::BaseColorImage> checkedBaseColor(const ObjectDesc& desc, int sizeLimit) {
-  for (const float component : desc.baseColor) {
-    if (!std::isfinite(component))
-      return Error{ErrorCode::invalidArgument, "the object's base colour has a NaN or infinite component"};
-  }
-  EngineObject::BaseColorImage image;
-  if (desc.baseColorPixels == nullptr) return image;
-  const int channels = desc.baseColorChannels;
-  if (desc.baseColorWidth <= 0 || desc.baseColorHeight <= 0 || (channels != 3 && channels != 4)) {
-    return Error{ErrorCode::invalidArgument, "a base colour image needs a positive size and 3 or 4 channels"};
-  }
-  if (std::max(desc.baseColorWidth, desc.baseColorHeight) > sizeLimit) {
-    return Error{ErrorCode::invalidArgument, "the base colour image is larger than this device's limit of " +
-                                                 std::to_string(sizeLimit) + " pixels a side"};
-  }
-  image.width = desc.baseColorWidth;
-  image.height = desc.baseColorHeight;
-  const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);
-  // Rows stay as they are, since texture coordinates count from the top left; alpha is dropped: shadows of
-  // cut-out materials are not supported.
-  image.rgba.resize(pixels * 4);
-  for (std::size_t i = 0; i < pixels; ++i) {
-    const std::uint8_t* source = desc.baseColorPixels + i * static_cast<std::size_t>(channels);
-    std::uint8_t* target = image.rgba.data() + i * 4;
-    target[0] = source[0], target[1] = source[1], target[2] = source[2], target[3] = 255;
-  }
-  return image;
+Status addImages(gl::Context& context, const ObjectDesc& desc, EngineObject& object) {
+  const int limit = context.capabilities().limits.textureSize;
+  object.baseColorImage = api::baseColorImage(limit, desc);
+  object.alphaMaskImage = api::alphaMaskImage(limit, desc);
+  // The mask's texels stand for image alone: what else multiplies alpha divides the cutoff.
+  object.alphaCutoff = desc.alphaCutoff / std::max(desc.baseColor[3], 1e-6f);
+  return object.uploadTextures(context);
 }
 }  // namespace
 
@@ -70,15 +51,13 @@ Outcome Engine::State::addObject(const ObjectDesc& desc, ObjectId& id) {
     return state.fail({ErrorCode::contextLost, "the context was lost; call contextRestored on a new one"});
   auto transform = checkedTransform(desc.worldFromObject);
   if (!transform) return state.fail(transform.error());
-  auto image = checkedBaseColor(desc, state.context->capabilities().limits.textureSize);
-  if (!image) return state.fail(image.error());
+  if (Status status = api::checkSurface(desc); !status) return state.fail(status.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   EngineObject object;
-  auto mesh = state.meshes.find(*state.context, desc.mesh);
+  if (Status status = addImages(*state.context, desc, object); !status) return state.fail(status.error());
+  auto mesh = state.meshes.find(*state.context, desc.mesh, object.meshExtras());
   if (!mesh) return state.fail(mesh.error());
   object.mesh = std::move(mesh).value();
-  object.baseColorImage = std::move(image).value();
-  if (Status s = object.uploadBaseColor(*state.context); !s) return state.fail(s.error());
   if (Status s = state.context->checkErrors("adding an object"); !s) return state.fail(s.error());
   object.place(*transform);
   object.casts = desc.casts;

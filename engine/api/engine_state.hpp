@@ -185,6 +185,9 @@ struct Engine::State {
   void fitLight(std::size_t light, const planner::LightPlan& plan);
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                       const planner::FramePlan& framePlan);
+  /// Says which casters the technique takes for whole though alpha cuts holes into them.
+  void noteHoles(Frame& frame, std::size_t light, const std::string& technique,
+                 std::span<const techniques::DrawItem> casters) const;
   /// Of the receivers in the light's fit; found again when the scene changed.
   double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
   /// The technique, or the one that takes its place where it cannot plan the scene; passes are prepared.

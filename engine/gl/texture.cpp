@@ -59,6 +59,11 @@ bool isPowerOfTwo(int value) {
   return std::has_single_bit(static_cast<unsigned>(value));
 }
 
+GLint glWrap(TextureWrap wrap) {
+  if (wrap == TextureWrap::clampToEdge) return GL_CLAMP_TO_EDGE;
+  return wrap == TextureWrap::repeat ? GL_REPEAT : GL_MIRRORED_REPEAT;
+}
+
 }  // namespace
 
 std::size_t bytesPerTexel(TextureFormat format) {
@@ -77,7 +82,9 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
     return Error{ErrorCode::invalidArgument,
                  what + " cannot have mipmaps: OpenGL ES 2.0 needs powers of two."};
   }
-  if (desc.wrap == TextureWrap::repeat && !powersOfTwo) {
+  const TextureWrap wrapV = desc.wrapV.value_or(desc.wrap);
+  const bool clamps = desc.wrap == TextureWrap::clampToEdge && wrapV == TextureWrap::clampToEdge;
+  if (!clamps && !powersOfTwo) {
     return Error{ErrorCode::invalidArgument, what + " cannot repeat: OpenGL ES 2.0 needs powers of two."};
   }
   const bool filterNeedsMips = desc.filter != TextureFilter::nearest && desc.filter != TextureFilter::linear;
@@ -99,9 +106,8 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
   gl.pixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minFilterOf(desc.filter));
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magFilterOf(desc.filter));
-  const GLint wrap = desc.wrap == TextureWrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, glWrap(desc.wrap));
+  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, glWrap(wrapV));
 
   const TextureEncoding encoding = encodingOf(desc.format);
   int width = desc.width, height = desc.height;

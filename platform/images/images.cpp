@@ -122,6 +122,27 @@ Result<FloatImage> readImage(const std::filesystem::path& path) {
   return image;
 }
 
+Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* format) {
+  configureOnce();
+  const auto failed = [format](const std::string& why) {
+    return Error{ErrorCode::fileMalformed, std::string("OpenImageIO cannot decode it as ") + format + ": " +
+                                               (why.empty() ? "unknown format" : why)};
+  };
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(file.data()), file.size());
+  OIIO::ImageSpec asStored;
+  asStored.attribute("oiio:UnassociatedAlpha", 1);
+  std::unique_ptr<OIIO::ImageInput> input =
+      OIIO::ImageInput::open(std::string("memory.") + format, &asStored, &memory);
+  if (!input) return failed(OIIO::geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.image_pixels() == 0 || spec.nchannels < 3) return failed("it has no colours");
+  ByteImage image{.width = spec.width, .height = spec.height, .channels = std::min(spec.nchannels, 4)};
+  image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(image.channels));
+  if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data()))
+    return failed(input->geterror());
+  return image;
+}
+
 Status writeExr(const std::filesystem::path& path, const FloatImage& image) {
   return writeExr(path, image, image.channelNames);
 }

@@ -47,5 +47,6 @@ float hs_filter(HS_HIGHP vec2 width) {
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

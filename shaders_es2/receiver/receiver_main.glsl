@@ -13,8 +13,13 @@ void hs_write(float visibility) {
 #elif defined(HS_COUNT_SHADOWED)
   gl_FragColor = vec4((1.0 - visibility) * (1.0 / 255.0));
 #elif defined(HS_SHADED)
+<<<<<<< HEAD
   HS_HIGHP vec4 n = hs_shadingNormal();
   vec3 light = hs_lightTerm(n, v_shadePosition, u_lightPosition[0].w, u_lightEmission[0], u_lightColor[0].rgb);
+=======
+  HS_HIGHP vec3 n = hs_shadingNormal();
+  vec3 light = hs_lightTerm(n, u_lightPosition[0], u_lightEmission[0], u_lightColor[0]);
+>>>>>>> 9897327 (scenes: read what glTF files use)
   gl_FragColor = vec4(hs_display(hs_albedo() * (hs_sky(n) + light * visibility)), 1.0);
 #elif defined(HS_VISIBILITY_16)
   // 16 bits in two bytes, stored a quarter above the step.
@@ -39,4 +44,5 @@ void main() {
 #else
   hs_write(halfshadow_visibility());
 #endif
+  hs_cut();
 }

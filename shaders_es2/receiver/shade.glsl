@@ -7,6 +7,9 @@ uniform HS_HIGHP vec4 u_eye;
 varying HS_HIGHP vec3 v_shadePosition;
 varying HS_HIGHP vec3 v_shadeNormal;
 varying HS_HIGHP vec2 v_texcoord;
+#ifdef HS_VERTEX_COLORS
+varying vec4 v_color;
+#endif
 #ifdef HS_BASE_COLOR_TEXTURE
 uniform HS_HIGHP sampler2D u_baseColorTexture;
 #endif
@@ -32,17 +35,21 @@ HS_HIGHP vec4 hs_shadingNormal() {
 }
 
 vec3 hs_albedo() {
+  vec3 albedo = u_baseColor.rgb;
+#ifdef HS_VERTEX_COLORS
+  albedo *= v_color.rgb;
+#endif
 #ifdef HS_BASE_COLOR_TEXTURE
   vec3 texel = texture2D(u_baseColorTexture, v_texcoord).rgb;
-  return u_baseColor.rgb * texel * texel;  // close to sRGB decoding, one multiplication
-#else
-  return u_baseColor.rgb;
+  albedo *= texel * texel;  // close to sRGB decoding, one multiplication
 #endif
+  return albedo;
 }
 
 // n: as of hs_shadingNormal().
 float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 
+<<<<<<< HEAD
 // fromLight: from its centre; reference: the distance at which the intensity counts 1; emission: w: 1 where it does so
 // everywhere, and the reference is 0
 vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission,
@@ -52,6 +59,21 @@ vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float refer
   HS_HIGHP float nearness = inverse * reference;
   float falloff = min(max(nearness * nearness, emission.w), 4.0);
   return color * (0.85 * falloff * cosine);
+=======
+// light: xyz centre, w 1 / the distance at which the intensity counts 1; 0: it does so everywhere
+// emission: xyz unit; its w and the colour's: slope and offset of a cone's edge over the cosine, see KHR_lights_punctual
+vec3 hs_lightTerm(HS_HIGHP vec3 n, HS_HIGHP vec4 light, HS_HIGHP vec4 emission, HS_HIGHP vec4 color) {
+  HS_HIGHP vec3 fromLight = v_shadePosition - light.xyz;
+  HS_HIGHP float size = max(max(abs(fromLight.x), abs(fromLight.y)), abs(fromLight.z));
+  fromLight = size > 0.0 ? fromLight / size : emission.xyz;  // squares of very small worlds would vanish
+  HS_HIGHP float relative = length(fromLight);
+  HS_HIGHP float ahead = dot(emission.xyz, fromLight);
+  float cosine = max(-dot(n, fromLight) / relative, 0.0) * step(0.0, ahead);
+  float cone = clamp(ahead / relative * emission.w + color.w, 0.0, 1.0);
+  HS_HIGHP float distance = max(relative * (size * light.w), 1e-3);
+  float falloff = light.w > 0.0 ? min(1.0 / (distance * distance), 4.0) : 1.0;
+  return color.rgb * (0.85 * falloff * cosine * cone * cone);
+>>>>>>> 9897327 (scenes: read what glTF files use)
 }
 
 vec3 hs_display(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }

@@ -51,10 +51,15 @@ typedef struct HalfshadowObjectDesc {
   uint32_t vertex_count;
   const uint32_t* indices; /* index_count, or null for 0, 1, 2, ... */
   size_t index_count;
-  const float* normals;         /* vertex_count * 3, or null */
-  double world_from_object[16]; /* column-major; all zero = identity */
-  int casts, receives;          /* 0 or 1 */
-  float base_color[4];          /* linear */
+  const float* normals;             /* vertex_count * 3, or null */
+  double world_from_object[16];     /* column-major; all zero = identity */
+  int casts, receives;              /* 0 or 1 */
+  float base_color[4];              /* linear */
+  const float* texcoords;           /* vertex_count * 2, or null */
+  const float* colors;              /* vertex_count * 4, linear, or null */
+  const uint8_t* base_color_pixels; /* sRGB, base_color_channels (3 or 4) a pixel, top row first, or null */
+  int base_color_width, base_color_height, base_color_channels; /* channels 0 = 4 */
+  float alpha_cutoff; /* above 0: nothing is there where alpha is less */
 } HalfshadowObjectDesc;
 
 typedef struct HalfshadowLightDesc {
@@ -64,6 +69,7 @@ typedef struct HalfshadowLightDesc {
   float color[3];
   double intensity;
   double reference_distance; /* where the intensity counts fully; 0 = the same at every distance */
+  double inner_cone_radians, outer_cone_radians; /* of a spot; an outer of 0: no cone */
 } HalfshadowLightDesc;
 
 typedef enum HalfshadowOutput {

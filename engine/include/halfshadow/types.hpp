@@ -57,7 +57,13 @@ struct MeshDesc {
   std::size_t indexCount = 0;
   const float* normals = nullptr;    ///< vertexCount × 3, unit, or null (facets are shaded flat)
   const float* texcoords = nullptr;  ///< vertexCount × 2, or null
+  const float* colors = nullptr;     ///< vertexCount × 4, linear, multiply the base colour; or null
 };
+
+/// What an image holds beyond its borders.
+enum class ImageWrap { repeat, clampToEdge, mirroredRepeat };
+/// How it is read between its texels.
+enum class ImageFilter { linear, nearest };
 
 struct ObjectDesc {
   MeshDesc mesh;
@@ -67,6 +73,12 @@ struct ObjectDesc {
   float baseColor[4] = {0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
   const std::uint8_t* baseColorPixels = nullptr;  ///< sRGB, baseColorChannels (3 or 4) a pixel, top row first
   int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;
+  ImageWrap baseColorWrapU = ImageWrap::repeat, baseColorWrapV = ImageWrap::repeat;
+  ImageFilter baseColorFilter = ImageFilter::linear;
+  /// Above 0: where the alpha of base colour, image and vertex colour together is less, nothing is there: it
+  /// is not drawn, and casts no shadow. Shadow volumes and wedges take the outline of the whole mesh: their
+  /// frames' reports say so. 0: all of it is there, and alpha means nothing. Not above 1.
+  float alphaCutoff = 0.0f;
 };
 using ObjectId = std::uint32_t;
 
@@ -86,6 +98,9 @@ struct LightDesc {
   /// Where the intensity counts fully, world units; it falls with the square of the distance, up to 4 times
   /// as much near the light. 0: the same at every distance, as of a sun. Only shading reads it.
   double referenceDistance = 0.0;
+  /// Of a spot: half angles about `emission`, radians; full light inside the inner one, none outside the
+  /// outer. An outer angle of 0: no cone. Only shading reads them: visibility is that of the whole light.
+  double innerConeRadians = 0.0, outerConeRadians = 0.0;
 };
 inline constexpr int kMaxLights = 4;
 

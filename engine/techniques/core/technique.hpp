@@ -25,6 +25,8 @@ struct TechniqueInfo {
   std::string summary;
   std::string guarantees;     ///< what holds exactly
   std::string knownFailures;  ///< what it gets wrong by construction
+  /// It takes casters by their outlines, which know of no holes that alpha cuts.
+  bool takesOutlines = false;
 };
 
 struct Support {

@@ -91,10 +91,16 @@ Status LightPasses::link(Device& device) {
     if (!program) return program.error();
     programs_.push_back(*program);
   }
+  cutting_.clear();
   receivers_.clear();
   for (const PlannedPass& pass : plan_.passes) {
     std::vector<ReceiverProgramSet>& sets = receivers_.emplace_back();
     for (std::size_t i = 0; i < pass.draws.size(); ++i) {
+      if (const auto* meshes = std::get_if<MeshDraw>(&pass.draws[i].what)) {
+        for (const DrawItem& item : meshes->items) {
+          if (Status s = linkCutting(device, pass.draws[i].program, item); !s) return s;
+        }
+      }
       const auto* receivers = std::get_if<ReceiversDraw>(&pass.draws[i].what);
       if (receivers == nullptr) continue;
       auto set = receiverPrograms(device.programs, receivers->shading, receivers->output, receivers->items);
@@ -103,6 +109,19 @@ Status LightPasses::link(Device& device) {
       sets[i] = *set;
     }
   }
+  return {};
+}
+
+Status LightPasses::linkCutting(Device& device, std::uint32_t program, const DrawItem& item) {
+  if (item.alphaMask == nullptr) return {};
+  gl::Program*& slot = cutting_[{program, item.vertexColors}];
+  if (slot != nullptr) return {};
+  device::ProgramVariant variant = plan_.programs[program];
+  variant.defines.emplace_back("HS_ALPHA_MASK");
+  if (item.vertexColors) variant.defines.emplace_back("HS_VERTEX_COLORS");
+  auto linked = device.programs.get(variant);
+  if (!linked) return linked.error();
+  slot = *linked;
   return {};
 }
 
@@ -270,6 +289,21 @@ void LightPasses::runDraw(const PlannedDraw& draw, const Images& images,
     drawReadBack(context, program, context.texture(placed.of(back->image)), draw, *back);
     return;
   }
+  if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
+    drawMeshes(draw, *meshes, images, context);
+    return;
+  }
+  setUp(encoder, program, draw, images, context);
+  if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
+    drawBuffers(encoder, draw, *triangles);
+  } else {
+    encoder.drawFullscreen(draw.state);
+  }
+}
+
+void LightPasses::setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
+                        const Images& images, framegraph::PassContext& context) const {
+  const Placed placed{images};
   encoder.useProgram(program);
   program.set(encoder.context(), draw.uniforms);
   std::vector<gl::TextureBinding> bindings;
@@ -278,23 +312,23 @@ void LightPasses::runDraw(const PlannedDraw& draw, const Images& images,
                         read.texture ? read.texture : &context.texture(placed.of(read.resource))});
   }
   if (!bindings.empty()) encoder.bindTextures(bindings);
-  if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
-    drawMeshes(encoder, program, draw, *meshes);
-  } else if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
-    drawBuffers(encoder, draw, *triangles);
-  } else {
-    encoder.drawFullscreen(draw.state);
-  }
 }
 
-void LightPasses::drawMeshes(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
-                             const MeshDraw& meshes) const {
+void LightPasses::drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
+                             framegraph::PassContext& context) const {
+  gl::Encoder& encoder = context.encoder;
   gl::DrawState state = draw.state;
+  gl::Program* current = nullptr;
   for (const DrawItem& item : meshes.items) {
+    const bool cut = item.alphaMask != nullptr;
+    gl::Program& program = cut ? *cutting_.at({draw.program, item.vertexColors}) : *programs_[draw.program];
+    if (&program != current) setUp(encoder, program, draw, images, context);
+    current = &program;
+    if (cut) bindAlphaMask(encoder, program, item);
     state.cull = culledFaces(meshes, item);
     program.set(encoder.context(), meshes.clipFromObject,
                 glm::mat4(meshes.clipFromWorld * item.worldFromObject));
-    item.mesh->draw(encoder, state, meshes.streams);
+    item.mesh->draw(encoder, state, meshes.streams, cut ? MeshExtras::alpha : MeshExtras::none);
   }
 }
 

@@ -85,13 +85,18 @@ class LightPasses {
   void run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
            framegraph::PassContext& context) const;
   void runDraw(const PlannedDraw& draw, const Images& images, framegraph::PassContext& context) const;
-  void drawMeshes(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
-                  const MeshDraw& meshes) const;
+  /// The variant that cuts holes of one of the plan's programs that draws such an item.
+  Status linkCutting(Device& device, std::uint32_t program, const DrawItem& item);
+  void setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw, const Images& images,
+             framegraph::PassContext& context) const;
+  void drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
+                  framegraph::PassContext& context) const;
   void drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw, const BufferDraw& triangles) const;
 
   std::unique_ptr<LightPlanner> planner_;
   PassPlan plan_;
-  std::vector<gl::Program*> programs_;                      ///< by PassPlan::programs
+  std::vector<gl::Program*> programs_;                              ///< by PassPlan::programs
+  std::map<std::pair<std::uint32_t, bool>, gl::Program*> cutting_;  ///< the same; with colours of vertices?
   std::vector<std::vector<ReceiverProgramSet>> receivers_;  ///< by pass and draw; of ReceiversDraw alone
   std::map<std::string, OwnTexture, std::less<>> textures_;
   std::vector<const gl::Texture*> texturesOfPlan_;

@@ -3,6 +3,7 @@
 #include "techniques/execution/receiver_pass.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_inverse.hpp>
 
@@ -45,7 +46,9 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
           .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
                      (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
                       (item.casts ||
-                       std::ranges::find(shading.alsoCasting, item.mesh) != shading.alsoCasting.end()))};
+                       std::ranges::find(shading.alsoCasting, item.mesh) != shading.alsoCasting.end())),
+          .cut = item.alphaMask != nullptr,
+          .colored = item.vertexColors && (shaded || item.alphaMask != nullptr)};
 }
 
 void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
@@ -89,6 +92,15 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   program.set(gl, "u_baseColor", item.baseColor);
 }
 
+/// Slope and offset of what the cone lets through, over the cosine to its axis; squared by the shader.
+/// Based on: KHR_lights_punctual, inner and outer cone angles.
+glm::vec2 coneEdge(const scene::AreaLight& light) {
+  if (!(light.outerConeRadians > 0.0)) return {0.0f, 1.0f};
+  const double outer = std::cos(light.outerConeRadians);
+  const double slope = 1.0 / std::max(1e-3, std::cos(light.innerConeRadians) - outer);
+  return {slope, -outer * slope};
+}
+
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
                       const gl::Rect& viewport, const ShadingInputs* inputs) {
   program.set(gl, shading.uniforms);
@@ -101,12 +113,8 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
   for (std::size_t i = 0; i < 4; ++i) {
     if (i >= inputs->lights.size()) continue;
     const scene::AreaLight& light = *inputs->lights[i];
-    // Beyond that the falloff is at its limit everywhere.
-    constexpr double kMostReference = 1024.0;
-    const double reference = std::min(light.referenceDistance * inputs->scale, kMostReference);
-    position[i] = glm::vec4(glm::vec3((light.centerWorld - origin) * inputs->scale), reference);
-    emission[i] = glm::vec4(glm::vec3(light.emission), reference > 0.0 ? 0.0f : 1.0f);
-    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
+#include <cmath>
+#include <cstdio>
   }
   program.setArray(gl, "u_lightPosition", position, 4);
   program.setArray(gl, "u_lightEmission", emission, 4);
@@ -116,14 +124,8 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
 
 }  // namespace
 
-double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers) {
-  double farthest = 0.0;
-  for (const DrawItem& item : receivers) {
-    const glm::dvec3 reach = glm::max(glm::abs(item.boundsWorld.low - first.centerWorld),
-                                      glm::abs(item.boundsWorld.high - first.centerWorld));
-    farthest = std::max(farthest, glm::length(reach));
-  }
-  return farthest > 0.0 ? std::exp2(-std::ceil(std::log2(farthest))) : 1.0;
+#include <cmath>
+#include <cstdio>
 }
 
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
@@ -149,6 +151,8 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
   std::vector<std::string> defines = shading.defines;
   if (kind.facets) defines.push_back("HS_FACET_NORMAL");
   if (kind.casting) defines.push_back("HS_CASTING_RECEIVER");
+  if (kind.cut) defines.push_back("HS_ALPHA_MASK");
+  if (kind.colored) defines.push_back("HS_VERTEX_COLORS");
   for (std::string& define : outputDefines(output, kind.textured)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
@@ -222,12 +226,14 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
       const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
       encoder.bindTextures({&binding, 1});
     }
+    if (kind.cut) bindAlphaMask(encoder, *program, item);
     setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs, ofItem);
     state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state,
                     kind.facets ? GpuMesh::Streams::facet
                     : inputs    ? GpuMesh::Streams::shading
-                                : GpuMesh::Streams::positions);
+                                : GpuMesh::Streams::positions,
+                    kind.cut ? MeshExtras::alpha : MeshExtras::none);
   };
   if (!programs.twoDraws) {
     for (const DrawItem& item : items) draw(item, &ReceiverPrograms::whole);

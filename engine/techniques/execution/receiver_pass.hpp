@@ -36,14 +36,15 @@ struct ReceiverKind {
   bool facets = false;    ///< its facet stream is drawn
   bool textured = false;  ///< its base colour texture is read
   bool casting = false;   ///< it is in the map itself, and the technique minds
+  bool cut = false;       ///< alpha cuts holes into it
+  bool colored = false;   ///< colours of its vertices are read
+  int index() const { return facets + 2 * textured + 4 * casting + 8 * cut + 16 * colored; }
 };
 struct ReceiverProgramSet {
-  ReceiverPrograms byKind[2][2][2];
+  ReceiverPrograms byKind[32];
   bool twoDraws = false;
-  ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.facets][kind.textured][kind.casting]; }
-  const ReceiverPrograms& of(const ReceiverKind& kind) const {
-    return byKind[kind.facets][kind.textured][kind.casting];
-  }
+  ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.index()]; }
+  const ReceiverPrograms& of(const ReceiverKind& kind) const { return byKind[kind.index()]; }
 };
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
@@ -67,6 +68,10 @@ struct ForwardVariant {
   std::uint64_t key = 0;  ///< of the texts; never 0
 };
 ForwardVariant forwardVariant(const ReceiverShading& shading);
+
+/// Of an item that alpha cuts: sets what alpha_mask.glsl reads of the current program.
+void bindAlphaMask(gl::Encoder& encoder, gl::Program& program, const DrawItem& item);
+
 /// Texts for a host's own shaders, see ForwardRecord. Errors: shaderFailed.
 struct ForwardTexts {
   std::string vertex, fragment;

@@ -146,7 +146,8 @@ class AdditiveWedges final : public Technique {
         .knownFailures =
             "too dark where penumbrae of several casters overlap; silhouettes are those of the "
             "light's centre; on a caster that is not convex, layers of it that overlap within a quadrant add "
-            "up"};
+            "up",
+        .takesOutlines = true};
     return info;
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
@@ -171,7 +172,8 @@ class ProbabilisticWedges final : public Technique {
         .knownFailures =
             "too light where casters side by side cover different parts of the light; silhouettes "
             "are those of the light's centre; on a caster that is not convex, layers of it that overlap "
-            "within a quadrant add up"};
+            "within a quadrant add up",
+        .takesOutlines = true};
     return info;
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }

@@ -59,7 +59,8 @@ class WedgesBlended final : public Technique {
         .knownFailures =
             "what both of two casters occlude within a quadrant is estimated; silhouettes are "
             "those of the light's centre; on a caster that is not convex, layers of it that overlap within a "
-            "quadrant add up"};
+            "quadrant add up",
+        .takesOutlines = true};
     return info;
   }
   std::vector<SettingInfo> settings() const override {

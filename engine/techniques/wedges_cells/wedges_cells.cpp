@@ -46,7 +46,8 @@ class WedgesCells final : public Technique {
         .knownFailures =
             "casters that overlap within one cell without touching count as independent; lists of faces grow "
             "with the triangles of casters that are not convex: where they exceed what fragments can walk, "
-            "pcss-mip takes the light"};
+            "pcss-mip takes the light",
+        .takesOutlines = true};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
