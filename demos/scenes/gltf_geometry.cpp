@@ -250,7 +250,7 @@ std::vector<glm::vec3> unitNormals(const std::vector<glm::dvec3>& normals) {
 }  // namespace
 
 Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
-                                    std::vector<std::string>& notes) {
+                                    SkippedPrimitives& skipped) {
   const tinygltf::Mesh& source = model.meshes[request.mesh];
   const tinygltf::Primitive& primitive = source.primitives[request.primitive];
   const std::string what = nameOf(request);
@@ -259,7 +259,7 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
     return malformed(what + " has the unknown mode " + std::to_string(primitive.mode));
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-    notes.push_back(what + " consists of points or lines, which cast no shadow, and was skipped");
+    skipped.pointsOrLines.push_back(what);
     return PrimitiveMesh{};
   }
   Result<Vertices> vertices = readVertices(model, primitive, what);
@@ -281,7 +281,7 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
   if (!corners) return corners.error();
   std::vector<std::uint32_t> indices = trianglesOf(primitive.mode, std::move(corners).value());
   if (indices.empty()) {
-    notes.push_back(what + " has no triangles and was skipped");
+    skipped.withoutArea.push_back(what);
     return PrimitiveMesh{};
   }
   if (request.isMirrored) {
@@ -303,7 +303,7 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
       .colors = vertices->colors.empty() ? nullptr : &vertices->colors.front().x,
   });
   if (!mesh && mesh.error().code == ErrorCode::emptyScene) {
-    notes.push_back(what + " has only triangles without an area and was skipped");
+    skipped.withoutArea.push_back(what);
     return PrimitiveMesh{};
   }
   if (!mesh) return malformed(what + ": " + mesh.error().message);

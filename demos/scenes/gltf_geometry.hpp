@@ -37,8 +37,13 @@ struct PrimitiveMesh {
   glm::dvec3 centerWorld{0.0};
 };
 
-/// No mesh (with a note) for points, lines and primitives without a triangle that has an area.
+/// Primitives that are not drawn, "primitive 0 of mesh 3".
+struct SkippedPrimitives {
+  std::vector<std::string> pointsOrLines, withoutArea;
+};
+
+/// No mesh for points, lines and primitives without a triangle that has an area.
 Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
-                                    std::vector<std::string>& notes);
+                                    SkippedPrimitives& skipped);
 
 }  // namespace halfshadow::scenes

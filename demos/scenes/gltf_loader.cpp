@@ -26,12 +26,12 @@ std::string label(const char* kind, std::size_t index, const std::string& name) 
   return std::string(kind) + " " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
 }
 
-/// 'a', 'b', 'c' and 4 more
-std::string listed(const std::vector<std::string>& names) {
+/// a, b, c and 4 more
+std::string listed(const std::vector<std::string>& names, const char* quote = "'") {
   constexpr std::size_t kShown = 3;
   std::string text;
   for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
-    text += (i > 0 ? ", '" : "'") + names[i].substr(0, 60) + "'";
+    text += (i > 0 ? ", " : "") + (quote + names[i].substr(0, 60)) + quote;
   if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
   return text;
 }
@@ -56,10 +56,8 @@ class GltfSceneBuilder {
       }
     }
     noteWhatAlphaDid();
-    if (scene_.objects.empty()) {
-      return Error{ErrorCode::emptyScene,
-                   "it has no triangles to draw in its scene; export a mesh (points and lines are skipped)"};
-    }
+    noteWhatWasSkipped();
+    if (scene_.objects.empty()) return nothingToDraw();
     for (const std::size_t node : *nodes) {
       if (Status status = addCamera(node); !status) return status.error();
     }
@@ -212,14 +210,34 @@ class GltfSceneBuilder {
     return {};
   }
 
+  void noteWhatWasSkipped() {
+    if (!skipped_.pointsOrLines.empty()) {
+      scene_.notes.push_back(listed(skipped_.pointsOrLines, "") +
+                             ": points or lines, which cast no shadow, were skipped");
+    }
+    if (!skipped_.withoutArea.empty()) {
+      scene_.notes.push_back(listed(skipped_.withoutArea, "") +
+                             ": no triangle that has an area; they were skipped");
+    }
+  }
+
+  Error nothingToDraw() const {
+    if (!absent_.empty()) {
+      return {ErrorCode::emptyScene,
+              "all that it holds is transparent (alpha below the cutoff); export a mesh "
+              "that can be seen"};
+    }
+    return {ErrorCode::emptyScene,
+            "it has no triangles to draw in its scene; export a mesh (points and lines are skipped)"};
+  }
+
   void noteWhatAlphaDid() {
     if (!absent_.empty()) {
-      scene_.notes.push_back(listed(absent_) +
-                             " is transparent all over (alpha below the cutoff): it is left out");
+      scene_.notes.push_back(listed(absent_) + ": transparent all over (alpha below the cutoff), left out");
     }
     if (!blended_.empty()) {
       scene_.notes.push_back(listed(blended_) +
-                             " has alphaMode BLEND: what is at least half opaque is drawn and casts as if it "
+                             ": of alphaMode BLEND what is at least half opaque is drawn and casts as if it "
                              "were opaque, the rest is left out");
     }
   }
@@ -231,7 +249,7 @@ class GltfSceneBuilder {
     const auto key = std::make_tuple(request.mesh, request.primitive, request.isMirrored);
     if (const auto found = sharedMeshes_.find(key); isShared && found != sharedMeshes_.end())
       return PrimitiveMesh{found->second};
-    auto made = primitiveMesh(model_, request, scene_.notes);
+    auto made = primitiveMesh(model_, request, skipped_);
     if (made && isShared) sharedMeshes_[key] = made->mesh;
     return made;
   }
@@ -308,6 +326,7 @@ class GltfSceneBuilder {
   Pose pose_;
   std::vector<GltfMaterial> materials_;
   std::vector<std::string> absent_, blended_;  ///< objects by name
+  SkippedPrimitives skipped_;
   std::vector<PendingLight> lights_;
   std::map<std::tuple<int, std::size_t, bool>, std::shared_ptr<const scene::TriangleMesh>> sharedMeshes_;
 };

@@ -50,6 +50,7 @@ vec3 hs_albedo() {
 float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 
 <<<<<<< HEAD
+<<<<<<< HEAD
 // fromLight: from its centre; reference: the distance at which the intensity counts 1; emission: w: 1 where it does so
 // everywhere, and the reference is 0
 vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission,
@@ -60,6 +61,17 @@ vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float refer
   float falloff = min(max(nearness * nearness, emission.w), 4.0);
   return color * (0.85 * falloff * cosine);
 =======
+=======
+// What dark surfaces mirror of the sky, more at their rims: without it black ones have no shape.
+float hs_sheen(HS_HIGHP vec3 n, vec3 albedo) {
+  HS_HIGHP vec3 toEye = u_eye.xyz - v_shadePosition;
+  HS_HIGHP float size = max(max(abs(toEye.x), abs(toEye.y)), abs(toEye.z));
+  float grazing = size > 0.0 ? 1.0 - clamp(dot(n, normalize(toEye / size)), 0.0, 1.0) : 0.0;
+  float darkness = clamp(1.0 - 4.0 * max(max(albedo.r, albedo.g), albedo.b), 0.0, 1.0);
+  return darkness * (0.06 + 0.6 * grazing * grazing * grazing) * hs_sky(n);
+}
+
+>>>>>>> 29bc789 (scenes: compose the picture from what is there)
 // light: xyz centre, w 1 / the distance at which the intensity counts 1; 0: it does so everywhere
 // emission: xyz unit; its w and the colour's: slope and offset of a cone's edge over the cosine, see KHR_lights_punctual
 vec3 hs_lightTerm(HS_HIGHP vec3 n, HS_HIGHP vec4 light, HS_HIGHP vec4 emission, HS_HIGHP vec4 color) {

@@ -33,7 +33,12 @@ void main() {
   sum += hs_lightTerm(n, u_lightPosition[1], u_lightEmission[1], u_lightColor[1]) * visibility.g;
   sum += hs_lightTerm(n, u_lightPosition[2], u_lightEmission[2], u_lightColor[2]) * visibility.b;
   sum += hs_lightTerm(n, u_lightPosition[3], u_lightEmission[3], u_lightColor[3]) * visibility.a;
+<<<<<<< HEAD
 >>>>>>> 9897327 (scenes: read what glTF files use)
   gl_FragColor = vec4(hs_display(hs_albedo() * sum), 1.0);
+=======
+  vec3 albedo = hs_albedo();
+  gl_FragColor = vec4(hs_display(albedo * sum + hs_sheen(n, albedo)), 1.0);
+>>>>>>> 29bc789 (scenes: compose the picture from what is there)
   hs_cut();
 }
