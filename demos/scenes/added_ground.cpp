@@ -40,10 +40,15 @@ bool isInsideAShell(const std::vector<WorldTriangle>& triangles, const glm::dvec
 
 /// Area of the surfaces in the plane at `height` that the eye sees, judged at their centres.
 double seenAreaAt(const TriangleTree& tree, double height, double rounding, const glm::dvec3& eye) {
+  const auto liesThere = [&](const WorldTriangle& triangle) {
+    return std::ranges::all_of(triangle.corners,
+                               [&](const glm::dvec3& c) { return c.y <= height + rounding; });
+  };
+  if (std::ranges::none_of(tree.triangles(), liesThere)) return 0.0;
+  tree.order();
   std::vector<const WorldTriangle*> there;
   for (const WorldTriangle& triangle : tree.triangles()) {
-    if (std::ranges::all_of(triangle.corners, [&](const glm::dvec3& c) { return c.y <= height + rounding; }))
-      there.push_back(&triangle);
+    if (liesThere(triangle)) there.push_back(&triangle);
   }
   std::ranges::sort(there, [](const auto* a, const auto* b) { return a->area() > b->area(); });
   if (there.size() > kMostLookedAt) there.resize(kMostLookedAt);

@@ -18,7 +18,7 @@ std::vector<glm::dvec3> castersAndShadows(const scene::SceneDescription& descrip
                                           const scene::AreaLight& light);
 
 /// Looks along norm(0.5, -0.6, -0.75), vertical field of view 34°, from the nearest place that sees all the
-/// points in a 4:3 image, with a margin of a twentieth, those at its edges equally far from them.
+/// points in a 4:3 image, with a margin of a twentieth; they reach as far to either side.
 scene::Camera cameraFittedTo(const std::vector<glm::dvec3>& points);
 
 }  // namespace halfshadow::scenes

@@ -45,6 +45,16 @@ ParserDetour takeDetour(Json& json, bool isBinary) {
       detour.emptyAccessors.push_back(*index);
     }
   }
+  // Channels without a node are what KHR_animation_pointer is for; the parser would drop them.
+  for (Json* animation : elementsOf(json, "animations")) {
+    for (Json* channel : elementsOf(*animation, "channels")) {
+      if (memberOf(*channel, "target") == nullptr) continue;
+      Json& target = (*channel)["target"];
+      if (!target.is_object() || target.contains("node")) continue;
+      target["node"] = -1;
+      detour.namesTargets = true;
+    }
+  }
   return detour;
 }
 

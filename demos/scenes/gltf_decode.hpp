@@ -21,7 +21,8 @@ std::string missingDecoder(std::string_view extension);
 struct ParserDetour {
   std::vector<std::size_t> emptyBuffers;    ///< without bytes in the file: filled by decoding
   std::vector<std::size_t> emptyAccessors;  ///< of indices, without a buffer view
-  bool isNeeded() const { return !emptyBuffers.empty() || !emptyAccessors.empty(); }
+  bool namesTargets = false;                ///< of animation channels without a node
+  bool isNeeded() const { return !emptyBuffers.empty() || !emptyAccessors.empty() || namesTargets; }
 };
 ParserDetour takeDetour(Json& json, bool isBinary);
 void undoDetour(const ParserDetour& detour, tinygltf::Model& model);

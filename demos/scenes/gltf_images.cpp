@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <cstring>
 #include <exception>
 
@@ -27,7 +28,28 @@ bool begins(const ByteRange& bytes, std::string_view magic) {
   return bytes.size >= magic.size() && std::memcmp(bytes.begin, magic.data(), magic.size()) == 0;
 }
 
-/// 8 bits per channel, 3 or 4 channels; null when the sizes do not fit together.
+/// Behind "data:…;base64,"; empty where the text is no such URI.
+FileBytes bytesOfDataUri(std::string_view uri) {
+  constexpr std::string_view kMark = ";base64,";
+  const std::size_t mark = uri.find(kMark);
+  FileBytes bytes;
+  if (!uri.starts_with("data:") || mark == std::string_view::npos) return bytes;
+  constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::uint32_t bits = 0;
+  int held = 0;
+  for (const char c : uri.substr(mark + kMark.size())) {
+    const std::size_t digit = kDigits.find(c);
+    if (digit == std::string_view::npos) break;
+    bits = bits << 6 | static_cast<std::uint32_t>(digit);
+    held += 6;
+    if (held < 8) continue;
+    held -= 8;
+    bytes.push_back(static_cast<unsigned char>(bits >> held));
+  }
+  return bytes;
+}
+
+/// 8 bits per channel, 3 or 4 channels; an error when the sizes do not fit together.
 Result<scene::Image> converted(const tinygltf::Image& source) {
   const bool isWide = source.bits == 16;
   const auto pixelCount = static_cast<std::size_t>(std::max(source.width, 0)) *
@@ -104,7 +126,8 @@ std::shared_ptr<const scene::Image> GltfImages::at(int index) {
   isTried_[index] = true;
   Result<scene::Image> image = decoded(index);
   if (!image) {
-    const std::string& uri = model_.images[index].uri;
+    const std::string uri =
+        model_.images[index].uri.starts_with("data:") ? std::string() : model_.images[index].uri;
     addNote("image " + std::to_string(index) + (uri.empty() ? "" : " '" + uri.substr(0, 80) + "'") +
             " is not used, nor holes that it may cut: " + image.error().message);
     return nullptr;
@@ -120,8 +143,11 @@ Result<scene::Image> GltfImages::decoded(int index) const {
     if (!range) return range.error();
     return decodedImage(*range);
   }
-  if (source.image.empty()) return malformed("its file is missing or empty");
-  return decodedImage({source.image.data(), source.image.size()});
+  // The parser leaves out data URIs of formats that it does not know.
+  const FileBytes inUri = source.image.empty() ? bytesOfDataUri(source.uri) : FileBytes();
+  const std::vector<unsigned char>& bytes = source.image.empty() ? inUri : source.image;
+  if (bytes.empty()) return malformed("its file is missing or empty");
+  return decodedImage({bytes.data(), bytes.size()});
 }
 
 void GltfImages::addNote(std::string note) {

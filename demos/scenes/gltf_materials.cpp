@@ -58,6 +58,27 @@ AlphaRange alphaRangeOf(const scene::Material& material, const scene::TriangleMe
   range.times(static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f);
   return range;
 }
+
+/// Diffuse colour of KHR_materials_pbrSpecularGlossiness, where a material has that; files of before 2021 do.
+struct BaseColor {
+  std::vector<double> factor;
+  int texture = -1;
+};
+BaseColor baseColorOf(const tinygltf::Material& source) {
+  BaseColor base{source.pbrMetallicRoughness.baseColorFactor,
+                 source.pbrMetallicRoughness.baseColorTexture.index};
+  const auto found = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (found == source.extensions.end() || !found->second.IsObject()) return base;
+  const tinygltf::Value& factor = found->second.Get("diffuseFactor");
+  base.factor = {1, 1, 1, 1};
+  for (int c = 0; c < 4 && factor.ArrayLen() == 4; ++c) {
+    if (factor.Get(c).IsNumber()) base.factor[c] = factor.Get(c).GetNumberAsDouble();
+  }
+  const tinygltf::Value& texture = found->second.Get("diffuseTexture");
+  base.texture =
+      texture.IsObject() && texture.Get("index").IsNumber() ? texture.Get("index").GetNumberAsInt() : -1;
+  return base;
+}
 }  // namespace
 
 TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
@@ -97,16 +118,17 @@ std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, std::vector<
   for (const tinygltf::Material& source : model.materials) {
     GltfMaterial result{.blends = source.alphaMode == "BLEND"};
     scene::Material& material = result.material;
-    const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
+    const BaseColor base = baseColorOf(source);
+    const std::vector<double>& factor = base.factor;
     material.baseColor = glm::vec4(1.0f);
     for (int c = 0; c < 4 && factor.size() == 4; ++c) {
       material.baseColor[c] = std::isfinite(factor[c]) ? static_cast<float>(factor[c]) : 1.0f;
     }
     material.doubleSided = source.doubleSided;
     material.alphaCutoff = cutoffOf(source);
-    if (const int texture = source.pbrMetallicRoughness.baseColorTexture.index; texture >= 0) {
-      material.baseColorImage = images.ofTexture(texture);
-      material.sampling = samplingOf(model, texture);
+    if (base.texture >= 0) {
+      material.baseColorImage = images.ofTexture(base.texture);
+      material.sampling = samplingOf(model, base.texture);
     }
     materials.push_back(std::move(result));
   }

@@ -37,6 +37,9 @@ std::vector<Bounds> boundsPerObject(const SceneDescription& description) {
   return bounds;
 }
 
+/// Of the width times the depth of what stands on it.
+constexpr double kSmallFloorShare = 0.25;
+
 bool isFloor(const SceneDescription& description, const std::vector<Bounds>& bounds, std::size_t candidate) {
   const SceneObject& object = description.objects[candidate];
   if (!object.receives) return false;
@@ -48,7 +51,12 @@ bool isFloor(const SceneDescription& description, const std::vector<Bounds>& bou
   if (!(size.y < 0.25 * std::min(size.x, size.z))) return false;
   if (others.empty()) return !object.casts;
   const glm::dvec3 otherSize = others.high - others.low;
-  return size.x >= otherSize.x && size.z >= otherSize.z && bounds[candidate].low.y <= others.center().y;
+  if (size.x >= otherSize.x && size.z >= otherSize.z) return bounds[candidate].low.y <= others.center().y;
+  // A smaller one lies under what stands on it.
+  const glm::dvec3 shared = glm::max(
+      glm::min(bounds[candidate].high, others.high) - glm::max(bounds[candidate].low, others.low), 0.0);
+  return shared.x * shared.z >= kSmallFloorShare * otherSize.x * otherSize.z &&
+         bounds[candidate].low.y <= others.low.y && bounds[candidate].high.y <= others.center().y;
 }
 
 bool hasFloor(const SceneDescription& description) {
@@ -58,6 +66,9 @@ bool hasFloor(const SceneDescription& description) {
   }
   return false;
 }
+
+/// Of what stands on it: a floor up to here belongs into the picture.
+constexpr double kWideFloorRadii = 2.0;
 
 /// What light and camera are fitted to: the casters without what is only the floor under them.
 Bounds subjectBounds(const SceneDescription& description) {
@@ -118,8 +129,11 @@ Status addLight(SceneDescription& description, const TriangleTree& tree, const B
 void addCamera(SceneDescription& description, const Bounds& subject) {
   const std::vector<Bounds> bounds = boundsPerObject(description);
   std::vector<char> isSubject;
-  for (std::size_t i = 0; i < bounds.size(); ++i)
-    isSubject.push_back(description.objects[i].casts && !isFloor(description, bounds, i));
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const bool isWideFloor =
+        isFloor(description, bounds, i) && bounds[i].radius() > kWideFloorRadii * subject.radius();
+    isSubject.push_back(description.objects[i].casts && !isWideFloor);
+  }
   description.camera =
       cameraFittedTo(castersAndShadows(description, isSubject, subject, description.lights.front()));
   description.notes.push_back("the scene has no camera: one was fitted to its casters and their shadow");

@@ -14,8 +14,9 @@
 namespace halfshadow::scenes {
 
 /// automatic: a ground plane is added unless the scene already has a floor, or would be hidden by one (see
-/// added_ground.hpp). A floor is an object that receives, is at least as wide in x and in z as all other
-/// casters together, begins at or below their middle, and is flat (less high than a quarter of its width).
+/// added_ground.hpp). A floor is an object that receives and is flat (less high than a quarter of its width),
+/// and that either is at least as wide in x and in z as all other casters together and begins at or below
+/// their middle, or lies below all of them and covers a quarter of what they do.
 enum class GroundMode { automatic, on, off };
 
 struct SceneOptions {

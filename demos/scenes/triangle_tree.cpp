@@ -40,6 +40,9 @@ bool meetsBox(const glm::dvec3& low, const glm::dvec3& high, const glm::dvec3& s
 }  // namespace
 
 TriangleTree::TriangleTree(const scene::SceneDescription& description) {
+  std::size_t count = 0;
+  for (const scene::SceneObject& object : description.objects) count += object.mesh->triangleCount();
+  triangles_.reserve(count);
   for (std::uint32_t o = 0; o < description.objects.size(); ++o) {
     const scene::SceneObject& object = description.objects[o];
     const scene::TriangleMesh& mesh = *object.mesh;
@@ -53,10 +56,9 @@ TriangleTree::TriangleTree(const scene::SceneDescription& description) {
       triangles_.push_back(triangle);
     }
   }
-  if (!triangles_.empty()) addNode(0, static_cast<std::uint32_t>(triangles_.size()));
 }
 
-std::uint32_t TriangleTree::addNode(std::uint32_t first, std::uint32_t count) {
+std::uint32_t TriangleTree::addNode(std::uint32_t first, std::uint32_t count) const {
   const auto index = static_cast<std::uint32_t>(nodes_.size());
   nodes_.push_back({.first = first, .count = count});
   scene::Bounds box, middles;
@@ -82,7 +84,8 @@ std::uint32_t TriangleTree::addNode(std::uint32_t first, std::uint32_t count) {
 TriangleTree::Hit TriangleTree::firstOn(const glm::dvec3& start, const glm::dvec3& way,
                                         const WorldTriangle* own) const {
   Hit hit;
-  if (nodes_.empty()) return hit;
+  if (triangles_.empty()) return hit;
+  order();
   double nearest = 1.0;
   const glm::dvec3 inverse = 1.0 / way;
   std::vector<std::uint32_t> open{0};

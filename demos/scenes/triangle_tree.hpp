@@ -27,8 +27,12 @@ class TriangleTree {
  public:
   explicit TriangleTree(const scene::SceneDescription& description);
 
-  /// In the order of the tree; those of one shell need not follow each other.
+  /// In any order, which order() or the first ray settles.
   const std::vector<WorldTriangle>& triangles() const { return triangles_; }
+
+  void order() const {
+    if (nodes_.empty() && !triangles_.empty()) addNode(0, static_cast<std::uint32_t>(triangles_.size()));
+  }
 
   struct Hit {
     double share = std::numeric_limits<double>::infinity();  ///< of the way; infinite: nothing is met
@@ -45,10 +49,10 @@ class TriangleTree {
     std::uint32_t first = 0, count = 0;  ///< triangles; count 0 = inner, its left child follows it
     std::uint32_t right = 0;
   };
-  std::uint32_t addNode(std::uint32_t first, std::uint32_t count);
+  std::uint32_t addNode(std::uint32_t first, std::uint32_t count) const;
 
-  std::vector<WorldTriangle> triangles_;
-  std::vector<Node> nodes_;
+  mutable std::vector<WorldTriangle> triangles_;
+  mutable std::vector<Node> nodes_;  ///< made for the first ray: most scenes ask none
 };
 
 }  // namespace halfshadow::scenes
