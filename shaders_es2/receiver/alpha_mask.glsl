@@ -2,7 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Holes that a material's alpha cuts: nothing is drawn there, nor casts. Called last, since derivatives end behind it.
 #ifdef HS_ALPHA_MASK
-uniform sampler2D u_alphaMask;
+uniform HS_HIGHP sampler2D u_alphaMask;
 uniform HS_HIGHP float u_alphaCutoff;
 #ifndef HS_SHADED
 varying HS_HIGHP vec2 v_texcoord;
