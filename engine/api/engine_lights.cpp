@@ -87,14 +87,13 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   cache.reachKey = 0;
 }
 
-void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string& technique,
+void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string& id,
                               std::span<const techniques::DrawItem> casters) const {
   const auto cut = std::ranges::count_if(
       casters, [](const techniques::DrawItem& item) { return item.alphaMask != nullptr; });
   if (cut == 0) return;
-  frame.graph.noteSkipped(
-      nameOf(light) + " holes of " + std::to_string(cut) + " casters",
-      technique + " takes casters by their outlines: what alpha cuts out of them casts too");
+  frame.graph.noteSkipped(nameOf(light) + " holes of " + std::to_string(cut) + " casters",
+                          id + " takes casters by their outlines: what alpha cuts out of them casts too");
 }
 
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
