@@ -167,11 +167,8 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   if (choice->settings->choice("shading") == "apart") frame.shading = api::Shading::apart;
   auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
   if (!prepared) return prepared.error();
-<<<<<<< HEAD
   target.technique = *prepared;
-=======
   if ((*prepared)->info().takesOutlines) noteHoles(frame, index, (*prepared)->info().id, scene.casters);
->>>>>>> 9897327 (scenes: read what glTF files use)
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();

@@ -27,13 +27,8 @@ void main() {
 #endif
 #ifdef HS_SHADED
   v_shadePosition = (u_shadeFromObject * position).xyz;
-<<<<<<< HEAD
   // About of unit length, so that fragments need not scale it; 0 where the mesh has no normals.
   highp vec3 n = u_worldNormalFromObject * a_normal;
   v_shadeNormal = n / max(max(max(abs(n.x), abs(n.y)), abs(n.z)), 1e-30);
-  v_texcoord = a_texcoord;
-=======
-  v_shadeNormal = u_worldNormalFromObject * a_normal;
->>>>>>> 9897327 (scenes: read what glTF files use)
 #endif
 }

@@ -13,19 +13,10 @@ void hs_write(float visibility) {
 #elif defined(HS_COUNT_SHADOWED)
   gl_FragColor = vec4((1.0 - visibility) * (1.0 / 255.0));
 #elif defined(HS_SHADED)
-<<<<<<< HEAD
   HS_HIGHP vec4 n = hs_shadingNormal();
-  vec3 light = hs_lightTerm(n, v_shadePosition, u_lightPosition[0].w, u_lightEmission[0], u_lightColor[0].rgb);
-=======
-  HS_HIGHP vec3 n = hs_shadingNormal();
   vec3 light = hs_lightTerm(n, u_lightPosition[0], u_lightEmission[0], u_lightColor[0]);
-<<<<<<< HEAD
->>>>>>> 9897327 (scenes: read what glTF files use)
-  gl_FragColor = vec4(hs_display(hs_albedo() * (hs_sky(n) + light * visibility)), 1.0);
-=======
   vec3 albedo = hs_albedo();
   gl_FragColor = vec4(hs_display(albedo * (hs_sky(n) + light * visibility) + hs_sheen(n, albedo)), 1.0);
->>>>>>> 29bc789 (scenes: compose the picture from what is there)
 #elif defined(HS_VISIBILITY_16)
   // 16 bits in two bytes, stored a quarter above the step.
   HS_HIGHP float scaled = floor(clamp(visibility, 0.0, 1.0) * 65280.0 + 0.5);

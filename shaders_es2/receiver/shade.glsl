@@ -49,43 +49,26 @@ vec3 hs_albedo() {
 // n: as of hs_shadingNormal().
 float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 
-<<<<<<< HEAD
-<<<<<<< HEAD
-// fromLight: from its centre; reference: the distance at which the intensity counts 1; emission: w: 1 where it does so
-// everywhere, and the reference is 0
-vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec3 fromLight, HS_HIGHP float reference, HS_HIGHP vec4 emission,
-                  vec3 color) {
-  HS_HIGHP float inverse = inversesqrt(max(dot(fromLight, fromLight), HS_LEAST));
-  float cosine = max(-dot(n.xyz, fromLight) * (inverse * n.w), 0.0) * step(0.0, dot(emission.xyz, fromLight));
-  HS_HIGHP float nearness = inverse * reference;
-  float falloff = min(max(nearness * nearness, emission.w), 4.0);
-  return color * (0.85 * falloff * cosine);
-=======
-=======
 // What dark surfaces mirror of the sky, more at their rims: without it black ones have no shape.
-float hs_sheen(HS_HIGHP vec3 n, vec3 albedo) {
+float hs_sheen(HS_HIGHP vec4 n, vec3 albedo) {
   HS_HIGHP vec3 toEye = u_eye.xyz - v_shadePosition;
-  HS_HIGHP float size = max(max(abs(toEye.x), abs(toEye.y)), abs(toEye.z));
-  float grazing = size > 0.0 ? 1.0 - clamp(dot(n, normalize(toEye / size)), 0.0, 1.0) : 0.0;
+  float facing = dot(n.xyz, toEye) * (n.w * inversesqrt(max(dot(toEye, toEye), HS_LEAST)));
+  float grazing = 1.0 - clamp(facing, 0.0, 1.0);
   float darkness = clamp(1.0 - 4.0 * max(max(albedo.r, albedo.g), albedo.b), 0.0, 1.0);
   return darkness * (0.06 + 0.6 * grazing * grazing * grazing) * hs_sky(n);
 }
 
->>>>>>> 29bc789 (scenes: compose the picture from what is there)
-// light: xyz centre, w 1 / the distance at which the intensity counts 1; 0: it does so everywhere
+// light: xyz centre, w the distance at which the intensity counts 1; 0: it does so everywhere
 // emission: xyz unit; its w and the colour's: slope and offset of a cone's edge over the cosine, see KHR_lights_punctual
-vec3 hs_lightTerm(HS_HIGHP vec3 n, HS_HIGHP vec4 light, HS_HIGHP vec4 emission, HS_HIGHP vec4 color) {
+vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec4 light, HS_HIGHP vec4 emission, HS_HIGHP vec4 color) {
   HS_HIGHP vec3 fromLight = v_shadePosition - light.xyz;
-  HS_HIGHP float size = max(max(abs(fromLight.x), abs(fromLight.y)), abs(fromLight.z));
-  fromLight = size > 0.0 ? fromLight / size : emission.xyz;  // squares of very small worlds would vanish
-  HS_HIGHP float relative = length(fromLight);
-  HS_HIGHP float ahead = dot(emission.xyz, fromLight);
-  float cosine = max(-dot(n, fromLight) / relative, 0.0) * step(0.0, ahead);
-  float cone = clamp(ahead / relative * emission.w + color.w, 0.0, 1.0);
-  HS_HIGHP float distance = max(relative * (size * light.w), 1e-3);
-  float falloff = light.w > 0.0 ? min(1.0 / (distance * distance), 4.0) : 1.0;
+  HS_HIGHP float inverse = inversesqrt(max(dot(fromLight, fromLight), HS_LEAST));
+  HS_HIGHP float ahead = dot(emission.xyz, fromLight) * inverse;
+  float cosine = max(-dot(n.xyz, fromLight) * (inverse * n.w), 0.0) * step(0.0, ahead);
+  float cone = clamp(ahead * emission.w + color.w, 0.0, 1.0);
+  HS_HIGHP float nearness = inverse * light.w;
+  float falloff = light.w > 0.0 ? min(nearness * nearness, 4.0) : 1.0;
   return color.rgb * (0.85 * falloff * cosine * cone * cone);
->>>>>>> 9897327 (scenes: read what glTF files use)
 }
 
 vec3 hs_display(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }

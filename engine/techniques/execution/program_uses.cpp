@@ -27,13 +27,9 @@ void ProgramUses::add(gl::Program& program, const gl::DrawState& state,
 void ProgramUses::addReceivers(const ReceiverProgramSet& programs, const ReceiverShading& shading,
                                const ReceiverTarget& target, const DescOf& descOf) {
   const gl::DrawState state = receiverState(target);
-  for (const auto& byFacets : programs.byKind) {
-    for (const auto& byTexture : byFacets) {
-      for (const ReceiverPrograms& linked : byTexture) {
-        for (gl::Program* program : {linked.whole, linked.classify, linked.filter}) {
-          if (program) add(*program, state, shading.textures, descOf);
-        }
-      }
+  for (const ReceiverPrograms& linked : programs.byKind) {
+    for (gl::Program* program : {linked.whole, linked.classify, linked.filter}) {
+      if (program) add(*program, state, shading.textures, descOf);
     }
   }
 }

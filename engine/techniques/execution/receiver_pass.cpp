@@ -46,7 +46,7 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
           .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
                      (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
                       (item.casts ||
-                       std::ranges::find(shading.alsoCasting, item.mesh) != shading.alsoCasting.end())),
+                       std::ranges::find(shading.alsoCasting, item.object) != shading.alsoCasting.end())),
           .cut = item.alphaMask != nullptr,
           .colored = item.vertexColors && (shaded || item.alphaMask != nullptr)};
 }
@@ -113,8 +113,13 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
   for (std::size_t i = 0; i < 4; ++i) {
     if (i >= inputs->lights.size()) continue;
     const scene::AreaLight& light = *inputs->lights[i];
-#include <cmath>
-#include <cstdio>
+    // Beyond that the falloff is at its limit everywhere.
+    constexpr double kMostReference = 1024.0;
+    const double reference = std::min(light.referenceDistance * inputs->scale, kMostReference);
+    position[i] = glm::vec4(glm::vec3((light.centerWorld - origin) * inputs->scale), reference);
+    const glm::vec2 cone = coneEdge(light);
+    emission[i] = glm::vec4(glm::vec3(light.emission), cone.x);
+    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), cone.y);
   }
   program.setArray(gl, "u_lightPosition", position, 4);
   program.setArray(gl, "u_lightEmission", emission, 4);
@@ -124,8 +129,20 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
 
 }  // namespace
 
-#include <cmath>
-#include <cstdio>
+double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers) {
+  double farthest = 0.0;
+  for (const DrawItem& item : receivers) {
+    const glm::dvec3 reach = glm::max(glm::abs(item.boundsWorld.low - first.centerWorld),
+                                      glm::abs(item.boundsWorld.high - first.centerWorld));
+    farthest = std::max(farthest, glm::length(reach));
+  }
+  return farthest > 0.0 ? std::exp2(-std::ceil(std::log2(farthest))) : 1.0;
+}
+
+void bindAlphaMask(gl::Encoder& encoder, gl::Program& program, const DrawItem& item) {
+  const gl::TextureBinding binding{program.samplerUnit("u_alphaMask"), item.alphaMask};
+  encoder.bindTextures({&binding, 1});
+  program.set(encoder.context(), "u_alphaCutoff", item.alphaCutoff);
 }
 
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
