@@ -47,8 +47,8 @@ const std::vector<Cost> kCosts = {
     // Receivers' depth and sums; receivers that carry the silhouettes test a depth buffer of their own.
     {{"wedges"}, 0, 2},
     {{"wedges", {{"wedges.route", "receivers"}}}, 0, 1},
-    // Depth, casters of one piece, and two passes for each batch of the others: eleven casters, of which those
-    // that touch are one.
+    // Depth, casters of one piece, and two passes for each batch of the others: eleven casters, of which
+    // those that touch are one.
     {{"wedges-probabilistic"}, 0, 2 + 2 * 2},
 };
 
