@@ -13,6 +13,9 @@ halfshadow_packages=(
   libegl1 libgles2 libegl-mesa0 libgl1-mesa-dri
 )
 
+# Decoders of compressed geometry, which the build takes where they are.
+halfshadow_packages+=(libdraco-dev libmeshoptimizer-dev)
+
 # Only the tests need these; without them the tests that use them say that they skip.
 halfshadow_test_packages=(libgtest-dev glslang-tools clang-format xvfb)
 

@@ -7,6 +7,7 @@
 #include "commands.hpp"
 #include "measure/text_file.hpp"
 #include "options.hpp"
+#include "profile/compiled_counts.hpp"
 #include "profile/device_profile.hpp"
 #include "profile/profile_json.hpp"
 #include "report/report.hpp"
@@ -124,7 +125,14 @@ report::Table sceneRatioTable(const profile::Suite& suite, const std::vector<pro
   return table;
 }
 
-void printRatios(const report::Table& table) {
+report::Table compiledTable(const profile::CompiledCounts& compiled) {
+  return {.title = "Compiled for mobile GPUs",
+          .note = compiled.note,
+          .header = compiled.header,
+          .rows = compiled.rows};
+}
+
+void printTable(const report::Table& table) {
   if (!table.rows.empty()) print(TextTable{.header = table.header, .rows = table.rows});
   std::fflush(stdout);
 }
@@ -145,7 +153,7 @@ void printScene(const profile::Suite& suite, const ProfiledScene& scene) {
                           fixedText(times.frameStaticCpu.medianMs, 2)});
   }
   print(table);
-  printRatios(ratioTable(suite, scene.profile));
+  printTable(ratioTable(suite, scene.profile));
 }
 
 Status writeJsonFile(const std::filesystem::path& path, const measure::Json& json) {
@@ -181,7 +189,14 @@ ExitStatus makeProfile(const Arguments& arguments) {
   }
   if (!suite->sceneRatios.empty()) {
     document.tables.push_back(sceneRatioTable(*suite, profiles));
-    printRatios(document.tables.back());
+    printTable(document.tables.back());
+  }
+  const auto compiled = profile::compiledCounts(*suite);
+  if (!compiled) return fail(compiled.error());
+  if (!compiled->rows.empty()) {
+    document.tables.push_back(compiledTable(*compiled));
+    std::printf("%s\n", compiled->note.c_str());
+    printTable(document.tables.back());
   }
   const auto scene = openScene({.source = suite->scenes.front().source});
   if (!scene) return fail(scene.error());
@@ -192,8 +207,9 @@ ExitStatus makeProfile(const Arguments& arguments) {
     std::printf("%s = %s: %s\n", choice["setting"].get<std::string>().c_str(),
                 choice["value"].get<std::string>().c_str(), choice["reason"].get<std::string>().c_str());
   }
-  if (Status s = writeJsonFile(folder / "profile.json", profile::toJson(*suite, profiles)); !s)
-    return fail(s.error());
+  measure::Json results = profile::toJson(*suite, profiles);
+  results["compiled"] = {{"note", compiled->note}, {"header", compiled->header}, {"rows", compiled->rows}};
+  if (Status s = writeJsonFile(folder / "profile.json", results); !s) return fail(s.error());
   if (Status s = writeJsonFile(folder / "device.json", *device); !s) return fail(s.error());
   if (Status s = report::writeReport(folder / "report.html", document); !s) return fail(s.error());
   std::printf("wrote profile.json, device.json and report.html to %s\n", folder.c_str());

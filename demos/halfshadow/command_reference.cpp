@@ -47,6 +47,12 @@ ExitStatus traceReference(const Arguments& arguments) {
   const auto receivers =
       reference::traceReceivers(*scene, *scene->camera, light, arguments.size.width, arguments.size.height);
   if (!receivers) return fail(receivers.error());
+  if (std::ranges::all_of(receivers->normalWorld,
+                          [](const glm::dvec3& normal) { return glm::dot(normal, normal) == 0.0; })) {
+    return fail({ErrorCode::emptyScene, scene->name +
+                                            ": the picture is empty, no surface lies in the camera's view; "
+                                            "point --camera at the scene"});
+  }
   ProgressLine progress;
   const reference::ReferenceOptions options{
       .samples = arguments.truth.samples,

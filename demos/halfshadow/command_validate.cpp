@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "scenes/validate.hpp"
 
+#include <array>
 #include <cstdio>
 
 #include "commands.hpp"
@@ -29,43 +30,73 @@ Result<scene::SceneDescription> openAsStored(const Arguments& arguments) {
                                              .animationIndex = arguments.animationIndex});
 }
 
-struct Expectation {
-  const char* techniques;
+/// What a technique sees a caster by.
+enum class Sight { nothing, maps, volumes, wedges };
+struct Judged {
+  const char* id;
+  Sight sight;
+};
+constexpr std::array<Judged, 16> kTechniques = {{{"none", Sight::nothing},
+                                                 {"hard", Sight::maps},
+                                                 {"pcf", Sight::maps},
+                                                 {"pcf-masked", Sight::maps},
+                                                 {"pcf-quantized", Sight::maps},
+                                                 {"pcss", Sight::maps},
+                                                 {"pcss-mip", Sight::maps},
+                                                 {"vsm", Sight::maps},
+                                                 {"occlusion-textures", Sight::maps},
+                                                 {"shadow-width", Sight::maps},
+                                                 {"shadow-volume", Sight::volumes},
+                                                 {"wedges", Sight::wedges},
+                                                 {"wedges-probabilistic", Sight::wedges},
+                                                 {"wedges-blended", Sight::wedges},
+                                                 {"wedges-cells", Sight::wedges},
+                                                 {"sampled", Sight::maps}}};
+
+struct Verdict {
+  const char* verdict = "works";  ///< "works", "limited" or "lit"
   std::string outcome;
 };
 
-std::vector<Expectation> expectations(const scenes::ValidationReport& report) {
-  constexpr const char* kMaps = "none, hard, pcf*, pcss*, vsm, sampled, occlusion-textures, shadow-width";
-  constexpr const char* kVolumes = "shadow-volume";
-  constexpr const char* kWedges = "wedges*";
-  if (report.casters == 0) {
-    const std::string lit = "no casters: every pixel is lit";
-    return {{kMaps, lit}, {kVolumes, lit}, {kWedges, lit}};
-  }
-  std::vector<Expectation> result{
-      {kMaps, "work: they draw triangles into maps and ask nothing of the surface"}};
-  const std::string parts =
-      std::to_string(report.casterParts) + (report.casterParts == 1 ? " part" : " parts");
+std::string countOf(std::uint32_t some, std::uint32_t all) {
+  return std::to_string(some) + " of " + std::to_string(all) + " casters";
+}
+
+Verdict ofOutlines(const scenes::ValidationReport& report, Sight sight) {
+  Verdict verdict;
   if (report.openCasters == 0) {
-    result.push_back({kVolumes, "works: all casters are closed, so silhouettes are closed loops"});
-    result.push_back(
-        {kWedges, "work: all casters are closed; " + parts + ", each one occluder with its own penumbra"});
+    verdict.outcome = sight == Sight::volumes
+                          ? "all casters are closed, so silhouettes are closed loops"
+                          : "all casters are closed; " + std::to_string(report.casterParts) +
+                                (report.casterParts == 1 ? " part" : " parts") +
+                                ", each one occluder with its own penumbra";
   } else {
-    const std::string open = std::to_string(report.openCasters) + " of " + std::to_string(report.casters) +
-                             " casters are open: their boundaries count as silhouette edges, two-sided; ";
-    result.push_back({kVolumes, open + "exact"});
-    result.push_back(
-        {kWedges, open + "of the sides that face the light and those that face away the one that covers "
-                         "more counts"});
+    verdict.outcome = countOf(report.openCasters, report.casters) +
+                      " are open: their boundaries count as silhouette edges, two-sided";
+    if (sight == Sight::wedges)
+      verdict.outcome +=
+          "; of the sides that face the light and those that face away the one that covers more counts";
+  }
+  if (report.cutCasters > 0) {
+    verdict.verdict = "limited";
+    verdict.outcome +=
+        "; " + countOf(report.cutCasters, report.casters) + " have holes that alpha cuts, and cast whole";
   }
   if (report.repairedCasters > 0) {
-    const Expectation repaired{kVolumes, std::to_string(report.repairedCasters) +
-                                             " of the casters mended for silhouettes; meshes are drawn as "
-                                             "they are"};
-    result.push_back(repaired);
-    result.push_back({kWedges, repaired.outcome});
+    verdict.outcome +=
+        "; " + std::to_string(report.repairedCasters) + " of them mended for silhouettes, drawn as they are";
   }
-  return result;
+  return verdict;
+}
+
+Verdict verdictOf(const scenes::ValidationReport& report, Sight sight) {
+  if (report.casters == 0) return {"lit", "no casters: every pixel is lit"};
+  if (sight == Sight::nothing) return {"lit", "draws no shadows"};
+  if (sight != Sight::maps) return ofOutlines(report, sight);
+  if (report.cutCasters == 0)
+    return {"works", "it draws triangles into maps and asks nothing of the surface"};
+  return {"works", "it draws triangles into maps, with the holes that alpha cuts into " +
+                       countOf(report.cutCasters, report.casters)};
 }
 
 Json boundsJson(const scene::Bounds& bounds) {
@@ -106,6 +137,7 @@ Json reportJson(const scenes::ValidationReport& report) {
             {"casters", report.casters},
             {"open_casters", report.openCasters},
             {"repaired_casters", report.repairedCasters},
+            {"cut_casters", report.cutCasters},
             {"caster_parts", report.casterParts},
             {"bounds", boundsJson(report.boundsWorld)},
             {"caster_bounds", boundsJson(report.casterBoundsWorld)},
@@ -113,8 +145,10 @@ Json reportJson(const scenes::ValidationReport& report) {
   json["objects"] = Json::array();
   for (const scenes::ObjectReport& object : report.objects) json["objects"].push_back(objectJson(object));
   json["techniques"] = Json::array();
-  for (const Expectation& e : expectations(report)) {
-    json["techniques"].push_back({{"techniques", e.techniques}, {"outcome", e.outcome}});
+  for (const Judged& judged : kTechniques) {
+    const Verdict verdict = verdictOf(report, judged.sight);
+    json["techniques"].push_back(
+        {{"id", judged.id}, {"verdict", verdict.verdict}, {"outcome", verdict.outcome}});
   }
   return json;
 }
@@ -146,7 +180,12 @@ void printReport(const scenes::ValidationReport& report) {
       std::printf("mended: %s: %s\n", object.name.c_str(), repair.c_str());
     }
   }
-  for (const Expectation& e : expectations(report)) std::printf("%s: %s\n", e.techniques, e.outcome.c_str());
+  TextTable verdicts{.header = {"technique", "verdict", "why"}};
+  for (const Judged& judged : kTechniques) {
+    const Verdict verdict = verdictOf(report, judged.sight);
+    verdicts.rows.push_back({judged.id, verdict.verdict, verdict.outcome});
+  }
+  print(verdicts);
 }
 
 ExitStatus validate(const Arguments& arguments) {

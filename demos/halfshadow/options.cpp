@@ -88,9 +88,17 @@ void addSceneArguments(CLI::App& app, SceneArguments& arguments) {
          "casters)")
       ->check([](const std::string& text) { return problemOf(scenes::parseLight(text), "--light"); })
       ->allow_extra_args(false);
-  app.add_option("--ground", arguments.ground,
-                 "auto adds a ground plane to scenes without a floor, on to all, off removes it")
+  app.add_option(
+         "--ground", arguments.ground,
+         "auto adds a ground plane to scenes without a floor, on to all, off to none (and removes those of "
+         "built-in scenes)")
       ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str();
+  app.add_option(
+         "--up", arguments.up,
+         "what the scene takes for upward, where ground, lamp and camera are added: x, y, z, -x, -y, -z or "
+         "a direction x,y,z; the scene itself is not turned")
+      ->check([](const std::string& text) { return problemOf(scenes::parseUp(text), "--up"); })
       ->capture_default_str();
   app.add_option("--animation-time", arguments.animationTimeSeconds,
                  "seconds into a file's animation at which it is posed")
@@ -151,11 +159,27 @@ void addJsonArgument(CLI::App& app, std::string& path) {
                  "write the result as JSON to this file; - is standard output, without the table");
 }
 
+std::string holesNote(const scene::SceneDescription& scene) {
+  std::string names;
+  std::size_t count = 0;
+  constexpr std::size_t kNamed = 3;
+  for (const scene::SceneObject& object : scene.objects) {
+    if (!object.casts || !(object.material.alphaCutoff > 0.0f)) continue;
+    if (++count <= kNamed) names += (count > 1 ? ", '" : "'") + object.name.substr(0, 60) + "'";
+  }
+  if (count == 0) return {};
+  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
+  return "alpha cuts holes into " + names +
+         ", which techniques that take outlines do not see (shadow-volume, wedges, wedges-probabilistic, "
+         "wedges-blended, wedges-cells): they cast it whole";
+}
+
 scenes::SceneOptions sceneOptions(const SceneArguments& arguments) {
   scenes::SceneOptions options{.animationTimeSeconds = arguments.animationTimeSeconds,
                                .animationIndex = arguments.animationIndex};
   if (arguments.ground == "on") options.ground = scenes::GroundMode::on;
   if (arguments.ground == "off") options.ground = scenes::GroundMode::off;
+  options.up = scenes::parseUp(arguments.up).value();
   if (!arguments.camera.empty()) options.camera = scenes::parseCamera(arguments.camera).value();
   for (const std::string& text : arguments.lights) {
     const scene::AreaLight light = scenes::parseLight(text).value();
@@ -180,6 +204,7 @@ std::vector<measure::Setting> settingsOf(const SettingArguments& arguments) {
 Result<scene::SceneDescription> openScene(const SceneArguments& arguments) {
   auto scene = scenes::openScene(arguments.source, sceneOptions(arguments));
   if (!scene) return scene;
+  if (std::string note = holesNote(*scene); !note.empty()) scene->notes.push_back(std::move(note));
   for (const std::string& note : scene->notes) say("note: " + note);
   if (scene->lights.size() > static_cast<std::size_t>(kMaxLights)) {
     const std::string note = "the scene has " + std::to_string(scene->lights.size()) + " lights; the first " +

@@ -22,6 +22,7 @@ struct SceneArguments {
   std::string camera;               ///< empty = the scene's, or fitted
   std::vector<std::string> lights;  ///< none = the scene's, or a fitted one
   std::string ground = "auto";
+  std::string up = "y";
   double animationTimeSeconds = 0.0;
   int animationIndex = 0;
 };
@@ -65,6 +66,9 @@ void addJsonArgument(CLI::App& app, std::string& path);
 
 scenes::SceneOptions sceneOptions(const SceneArguments& arguments);
 std::vector<measure::Setting> settingsOf(const SettingArguments& arguments);
+
+/// A sentence about casters into which alpha cuts holes, and the techniques that take them whole; else empty.
+std::string holesNote(const scene::SceneDescription& scene);
 
 /// Opens the scene and says its notes on standard error. Its first light is the one that is measured.
 Result<scene::SceneDescription> openScene(const SceneArguments& arguments);

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "measure/device_settings.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -37,10 +38,15 @@ Result<std::vector<Setting>> settingsOf(const std::string& path, const json& pro
   return settings;
 }
 
+/// `match.renderer`: a part of the renderer's name, or a list of such.
 bool matches(const json& profile, const std::string& renderer) {
   const json match = profile.value("match", json::object());
-  if (!match.is_object() || !match.contains("renderer") || !match["renderer"].is_string()) return false;
-  return renderer.find(match["renderer"].get<std::string>()) != std::string::npos;
+  if (!match.is_object() || !match.contains("renderer")) return false;
+  const json& named = match["renderer"];
+  const auto isPart = [&](const json& part) {
+    return part.is_string() && renderer.find(part.get<std::string>()) != std::string::npos;
+  };
+  return named.is_array() ? std::ranges::any_of(named, isPart) : isPart(named);
 }
 }  // namespace
 

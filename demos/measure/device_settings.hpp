@@ -13,9 +13,9 @@
 
 namespace halfshadow::measure {
 
-/// Settings of the profile `source`: a file; "auto": the one of profiles/devices/ whose `match.renderer` is
-/// part of `renderer`, nothing when none is; "none": nothing. Errors: fileNotFound, fileMalformed (naming the
-/// file).
+/// Settings of the profile `source`: a file; "auto": the one of profiles/devices/ whose `match.renderer`, a
+/// text or one of a list, is part of `renderer`, nothing when none is; "none": nothing. Errors: fileNotFound,
+/// fileMalformed (naming the file).
 Result<std::vector<Setting>> deviceSettings(const std::string& source, const std::string& renderer);
 
 }  // namespace halfshadow::measure

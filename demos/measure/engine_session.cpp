@@ -36,7 +36,8 @@ ObjectDesc objectDesc(const scene::SceneObject& object, const std::vector<std::u
                .indices = indices.data(),
                .indexCount = indices.size(),
                .normals = mesh.normals.empty() ? nullptr : glm::value_ptr(mesh.normals.front()),
-               .texcoords = mesh.texcoords.empty() ? nullptr : glm::value_ptr(mesh.texcoords.front())},
+               .texcoords = mesh.texcoords.empty() ? nullptr : glm::value_ptr(mesh.texcoords.front()),
+               .colors = mesh.colors.empty() ? nullptr : glm::value_ptr(mesh.colors.front())},
       .casts = object.casts,
       .receives = object.receives};
   std::copy_n(glm::value_ptr(object.worldFromObject), 16, desc.worldFromObject);
@@ -46,7 +47,11 @@ ObjectDesc objectDesc(const scene::SceneObject& object, const std::vector<std::u
     desc.baseColorWidth = image->width;
     desc.baseColorHeight = image->height;
     desc.baseColorChannels = image->channels;
+    desc.baseColorWrapU = object.material.sampling.wrapU;
+    desc.baseColorWrapV = object.material.sampling.wrapV;
+    desc.baseColorFilter = object.material.sampling.filter;
   }
+  desc.alphaCutoff = std::min(object.material.alphaCutoff, 1.0f);
   return desc;
 }
 }  // namespace
@@ -69,7 +74,10 @@ CameraDesc nudged(const CameraDesc& camera) {
 }
 
 LightDesc lightDesc(const scene::AreaLight& light) {
-  LightDesc desc{.intensity = light.intensity, .referenceDistance = light.referenceDistance};
+  LightDesc desc{.intensity = light.intensity,
+                 .referenceDistance = light.referenceDistance,
+                 .innerConeRadians = light.innerConeRadians,
+                 .outerConeRadians = light.outerConeRadians};
   store(light.centerWorld, desc.center);
   store(light.halfU, desc.halfU);
   store(light.halfV, desc.halfV);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <vector>
 
 namespace halfshadow::scenes {
@@ -15,28 +16,8 @@ constexpr double kFloat = 1.0 / (1 << 22);
 constexpr double kGap = 1e-3;
 /// Surfaces at the ground's height that are looked at, the largest first.
 constexpr std::size_t kMostLookedAt = 256;
-
-struct WorldTriangle {
-  std::array<glm::dvec3, 3> corners;
-  std::uint32_t object = 0, shell = scene::kNoShell;
-};
-
-std::vector<WorldTriangle> trianglesOf(const scene::SceneDescription& description) {
-  std::vector<WorldTriangle> triangles;
-  for (std::uint32_t o = 0; o < description.objects.size(); ++o) {
-    const scene::SceneObject& object = description.objects[o];
-    const scene::TriangleMesh& mesh = *object.mesh;
-    for (std::size_t t = 0; t < mesh.triangleCount(); ++t) {
-      WorldTriangle triangle{.object = o, .shell = mesh.shellOf.empty() ? scene::kNoShell : mesh.shellOf[t]};
-      for (std::size_t k = 0; k < 3; ++k) {
-        triangle.corners[k] = glm::dvec3(
-            object.worldFromObject * glm::dvec4(glm::dvec3(mesh.positions[mesh.indices[3 * t + k]]), 1.0));
-      }
-      triangles.push_back(triangle);
-    }
-  }
-  return triangles;
-}
+/// Of the scene's width times its depth: what is seen of a surface at its lowest point and is its floor.
+constexpr double kFloorShare = 0.25;
 
 /// 4 pi inside a closed shell, 0 outside, either sign.
 double solidAngle(const WorldTriangle& triangle, const glm::dvec3& point) {
@@ -48,53 +29,28 @@ double solidAngle(const WorldTriangle& triangle, const glm::dvec3& point) {
 }
 
 bool isInsideAShell(const std::vector<WorldTriangle>& triangles, const glm::dvec3& point) {
-  // Triangles of one shell need not follow each other: sums by shell, one object at a time.
-  std::vector<double> sums;
-  for (std::size_t first = 0, last; first < triangles.size(); first = last) {
-    sums.clear();
-    for (last = first; last < triangles.size() && triangles[last].object == triangles[first].object; ++last) {
-      const std::uint32_t shell = triangles[last].shell;
-      if (shell == scene::kNoShell) continue;
-      if (shell >= sums.size()) sums.resize(shell + 1, 0.0);
-      sums[shell] += solidAngle(triangles[last], point);
-    }
-    if (std::ranges::any_of(sums, [](double sum) { return std::abs(sum) > 6.0; })) return true;  // about 2 pi
+  // Triangles of one shell need not follow each other: sums by object and shell.
+  std::map<std::pair<std::uint32_t, std::uint32_t>, double> sums;
+  for (const WorldTriangle& triangle : triangles) {
+    if (triangle.shell != scene::kNoShell)
+      sums[{triangle.object, triangle.shell}] += solidAngle(triangle, point);
   }
-  return false;
-}
-
-double areaOf(const WorldTriangle& t) {
-  return 0.5 * glm::length(glm::cross(t.corners[1] - t.corners[0], t.corners[2] - t.corners[0]));
-}
-
-/// Does anything but `own` lie on the way from the eye to `point`?
-bool isHidden(const std::vector<WorldTriangle>& triangles, const WorldTriangle& own, const glm::dvec3& eye,
-              const glm::dvec3& point) {
-  const glm::dvec3 way = point - eye;
-  return std::ranges::any_of(triangles, [&](const WorldTriangle& triangle) {
-    if (&triangle == &own) return false;
-    const glm::dvec3 ab = triangle.corners[1] - triangle.corners[0],
-                     ac = triangle.corners[2] - triangle.corners[0];
-    const glm::dvec3 p = glm::cross(way, ac);
-    const double determinant = glm::dot(ab, p);
-    if (determinant == 0.0) return false;
-    const glm::dvec3 toEye = eye - triangle.corners[0];
-    const double u = glm::dot(toEye, p) / determinant;
-    const glm::dvec3 q = glm::cross(toEye, ab);
-    const double v = glm::dot(way, q) / determinant, share = glm::dot(ac, q) / determinant;
-    return u >= 0.0 && v >= 0.0 && u + v <= 1.0 && share > 0.0 && share < 1.0 - 1e-6;
-  });
+  return std::ranges::any_of(sums, [](const auto& sum) { return std::abs(sum.second) > 6.0; });  // about 2 pi
 }
 
 /// Area of the surfaces in the plane at `height` that the eye sees, judged at their centres.
-double seenAreaAt(const std::vector<WorldTriangle>& triangles, double height, double rounding,
-                  const glm::dvec3& eye) {
+double seenAreaAt(const TriangleTree& tree, double height, double rounding, const glm::dvec3& eye) {
+  const auto liesThere = [&](const WorldTriangle& triangle) {
+    return std::ranges::all_of(triangle.corners,
+                               [&](const glm::dvec3& c) { return c.y <= height + rounding; });
+  };
+  if (std::ranges::none_of(tree.triangles(), liesThere)) return 0.0;
+  tree.order();
   std::vector<const WorldTriangle*> there;
-  for (const WorldTriangle& triangle : triangles) {
-    if (std::ranges::all_of(triangle.corners, [&](const glm::dvec3& c) { return c.y <= height + rounding; }))
-      there.push_back(&triangle);
+  for (const WorldTriangle& triangle : tree.triangles()) {
+    if (liesThere(triangle)) there.push_back(&triangle);
   }
-  std::ranges::sort(there, [](const auto* a, const auto* b) { return areaOf(*a) > areaOf(*b); });
+  std::ranges::sort(there, [](const auto* a, const auto* b) { return a->area() > b->area(); });
   if (there.size() > kMostLookedAt) there.resize(kMostLookedAt);
   double seen = 0.0;
   for (const WorldTriangle* triangle : there) {
@@ -105,18 +61,17 @@ double seenAreaAt(const std::vector<WorldTriangle>& triangles, double height, do
     for (const glm::dvec3& share : kPoints) {
       const glm::dvec3 point =
           triangle->corners[0] * share.x + triangle->corners[1] * share.y + triangle->corners[2] * share.z;
-      visible += !isHidden(triangles, *triangle, eye, point);
+      visible += !tree.isBetween(eye, point, triangle);
     }
-    if (visible > 0) seen += areaOf(*triangle);
+    if (visible > 0) seen += triangle->area();
   }
   return seen;
 }
 }  // namespace
 
-GroundPlace groundPlaceFor(const scene::SceneDescription& description) {
-  const std::vector<WorldTriangle> triangles = trianglesOf(description);
+GroundPlace groundPlaceFor(const scene::SceneDescription& description, const TriangleTree& tree) {
   scene::Bounds bounds;
-  for (const WorldTriangle& triangle : triangles) {
+  for (const WorldTriangle& triangle : tree.triangles()) {
     for (const glm::dvec3& corner : triangle.corners) bounds.include(corner);
   }
   const double lowest = bounds.low.y;
@@ -134,16 +89,16 @@ GroundPlace groundPlaceFor(const scene::SceneDescription& description) {
               .note = "no ground was added: a light is not above the scene's lowest point"};
     }
   }
-  if (isInsideAShell(triangles, eye)) {
+  if (isInsideAShell(tree.triangles(), eye)) {
     return {.height = lowest,
             .wanted = false,
             .note = "no ground was added: the camera is inside a closed object"};
   }
-  const double seen = seenAreaAt(triangles, lowest, rounding, eye);
+  const double seen = seenAreaAt(tree, lowest, rounding, eye);
   if (seen <= 0.0) return {.height = lowest};
   const double below = lowest - kGap * bounds.radius();
   const glm::dvec3 size = bounds.high - bounds.low;
-  if (seen >= 0.5 * size.x * size.z) {
+  if (seen >= kFloorShare * size.x * size.z) {
     return {.height = below,
             .wanted = false,
             .note = "no ground was added: a surface at the scene's lowest point is its floor"};

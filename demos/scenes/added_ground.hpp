@@ -7,6 +7,7 @@
 #include <string>
 
 #include "scene/scene_description.hpp"
+#include "scenes/triangle_tree.hpp"
 
 namespace halfshadow::scenes {
 
@@ -19,9 +20,9 @@ struct GroundPlace {
 /// At the lowest point of all that the scene holds, so that it covers nothing. It is not wanted where
 /// - the camera or a light is not above that: the ground would lie between it and the scene;
 /// - the camera is inside a closed shell of the scene, and sees nothing outside;
-/// - a surface there that the camera can see from above covers half of the scene: the scene has a floor.
+/// - a surface there that the camera can see from above covers a quarter of the scene: the scene has a floor.
 /// A surface there that can be seen puts the ground a little below it, so that the surface is what is seen.
 /// The scene has a camera and lights.
-GroundPlace groundPlaceFor(const scene::SceneDescription& description);
+GroundPlace groundPlaceFor(const scene::SceneDescription& description, const TriangleTree& tree);
 
 }  // namespace halfshadow::scenes

@@ -175,4 +175,23 @@ Result<scene::AreaLight> parseLight(std::string_view text) {
   return light;
 }
 
+Result<glm::dvec3> parseUp(std::string_view text) {
+  std::string_view axis = text;
+  const double sign = axis.starts_with('-') ? -1.0 : 1.0;
+  if (sign < 0.0) axis.remove_prefix(1);
+  if (axis == "x") return glm::dvec3(sign, 0, 0);
+  if (axis == "y") return glm::dvec3(0, sign, 0);
+  if (axis == "z") return glm::dvec3(0, 0, sign);
+  const auto parts = splitAt(text, ',');
+  glm::dvec3 up(0.0);
+  for (int i = 0; i < 3; ++i) {
+    const std::optional<double> number = parts.size() == 3 ? parseNumber(parts[i]) : std::nullopt;
+    if (number) up[i] = *number;
+  }
+  if (parts.size() == 3 && glm::length(up) > 0.0) return up;
+  return Error{ErrorCode::invalidArgument, "--up: '" + std::string(text) +
+                                               "' is no direction; give x, y, z, -x, -y, -z or three numbers "
+                                               "like 0,0,1, not all zero"};
+}
+
 }  // namespace halfshadow::scenes

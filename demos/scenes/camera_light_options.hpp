@@ -23,4 +23,7 @@ Result<scene::Camera> parseCamera(std::string_view text);
 /// Errors: invalidLight (the message quotes the word that is wrong).
 Result<scene::AreaLight> parseLight(std::string_view text);
 
+/// "x", "y", "z", the same with a "-" in front, or "x,y,z". Errors: invalidArgument.
+Result<glm::dvec3> parseUp(std::string_view text);
+
 }  // namespace halfshadow::scenes

@@ -115,6 +115,8 @@ void fitNearAndFar(scene::Camera& camera, const scene::SceneDescription& descrip
   // Nothing in view, or only slivers through the eye: any near plane shows the same.
   if (!(nearest > 0.0 && nearest < kNothing)) nearest = camera.farDistance / 5000.0;
   camera.nearDistance = std::min(0.9 * nearest, 0.5 * camera.farDistance);
+  if (camera.leastNearDistance < camera.farDistance)
+    camera.nearDistance = std::max(camera.nearDistance, camera.leastNearDistance);
 }
 
 }  // namespace halfshadow::scenes

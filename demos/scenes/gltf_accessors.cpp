@@ -199,10 +199,7 @@ Result<AccessorValues> readAccessor(const tinygltf::Model& model, int index, con
                        std::to_string(accessor.bufferView) +
                        "; the file is truncated or its counts are wrong");
     }
-  } else if (!accessor.sparse.isSparse) {
-    return malformed(what +
-                     " has no buffer view; compressed geometry is not supported: export it uncompressed");
-  }
+  }  // else all zeros, but for the sparse part
   values.numbers.assign(values.count * values.components, 0.0);
   if (accessor.bufferView >= 0) {
     const Status status = copyNumbers(model, accessor.bufferView,

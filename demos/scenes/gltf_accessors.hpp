@@ -13,7 +13,8 @@
 
 namespace halfshadow::scenes {
 
-/// `count` elements of `components` numbers; normalised integers are already divided out, all are finite.
+/// `count` elements of `components` numbers, zeros where the accessor has no bytes; normalised integers are
+/// already divided out, all are finite.
 struct AccessorValues {
   std::size_t count = 0;
   std::size_t components = 1;

@@ -7,18 +7,19 @@
 #include <tiny_gltf.h>
 
 #include <string>
+#include <vector>
 
-#include "base/error.hpp"
+#include "scenes/gltf_json.hpp"
 
 namespace halfshadow::scenes {
 
-/// Errors name the element but not the file; loadGltf puts the file's name in front.
-inline Error malformed(std::string sentence) {
-  return {ErrorCode::fileMalformed, std::move(sentence)};
-}
+struct GltfFile {
+  tinygltf::Model model;
+  std::vector<std::string> notes;  ///< extensions that are not honoured
+};
 
-/// Parses .glb (recognised by its first bytes) or .gltf with its buffers. Images that come by URI are
-/// decoded, images in buffer views are left to materialsOf, which checks their bounds.
-Result<tinygltf::Model> parseGltfFile(const std::string& path);
+/// Parses .glb or .gltf with its buffers, geometry decompressed. Images keep their encoded bytes: those that
+/// come by URI in Image::image, with width -1; others in their buffer views.
+Result<GltfFile> parseGltfFile(const std::string& path);
 
 }  // namespace halfshadow::scenes

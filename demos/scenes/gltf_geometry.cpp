@@ -2,11 +2,13 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "scenes/gltf_geometry.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "scene/bounds.hpp"
 #include "scenes/gltf_accessors.hpp"
+#include "scenes/gltf_materials.hpp"
 
 namespace halfshadow::scenes {
 namespace {
@@ -14,6 +16,7 @@ struct Vertices {
   std::vector<glm::dvec3> positions;
   std::vector<glm::dvec3> normals;  ///< empty or one per position
   std::vector<glm::vec2> texcoords;
+  std::vector<glm::vec4> colors;  ///< empty or one per position
 };
 
 std::string nameOf(const PrimitiveRequest& request) {
@@ -36,13 +39,48 @@ Status checkCount(std::size_t count, const Vertices& vertices, const std::string
                    std::to_string(vertices.positions.size()) + " positions; export it again");
 }
 
-/// TEXCOORD_n that the material's base colour image uses.
-std::string texcoordName(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+/// Of the material's base colour image.
+TextureCoordinates texcoordsOf(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
   const bool hasMaterial =
       primitive.material >= 0 && static_cast<std::size_t>(primitive.material) < model.materials.size();
-  const int set =
-      hasMaterial ? model.materials[primitive.material].pbrMetallicRoughness.baseColorTexture.texCoord : 0;
-  return "TEXCOORD_" + std::to_string(set);
+  return hasMaterial ? textureCoordinatesOf(model.materials[primitive.material]) : TextureCoordinates();
+}
+
+Status readTexcoords(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
+                     const std::string& what, Vertices& vertices) {
+  const TextureCoordinates use = texcoordsOf(model, primitive);
+  const auto texcoord = primitive.attributes.find("TEXCOORD_" + std::to_string(use.set));
+  if (texcoord == primitive.attributes.end()) return {};
+  const std::string name = texcoord->first + " of " + what;
+  const Result<AccessorValues> values =
+      readAccessor(model, texcoord->second, {.name = name, .components = 2});
+  if (!values) return values.error();
+  if (Status s = checkCount(values->count, vertices, name); !s) return s;
+  vertices.texcoords.reserve(values->count);
+  for (std::size_t i = 0; i < values->count; ++i) {
+    vertices.texcoords.emplace_back(use.imageFromFile * glm::dvec3((*values)[i][0], (*values)[i][1], 1.0));
+  }
+  return {};
+}
+
+Status readColors(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const std::string& what,
+                  Vertices& vertices) {
+  const auto color = primitive.attributes.find("COLOR_0");
+  if (color == primitive.attributes.end()) return {};
+  const std::string name = "COLOR_0 of " + what;
+  const bool exists = color->second >= 0 && static_cast<std::size_t>(color->second) < model.accessors.size();
+  const bool hasAlpha = exists && model.accessors[color->second].type == TINYGLTF_TYPE_VEC4;
+  const Result<AccessorValues> values =
+      readAccessor(model, color->second, {.name = name, .components = hasAlpha ? 4u : 3u});
+  if (!values) return values.error();
+  if (Status s = checkCount(values->count, vertices, name); !s) return s;
+  vertices.colors.reserve(values->count);
+  for (std::size_t i = 0; i < values->count; ++i) {
+    const double* c = (*values)[i];
+    const glm::dvec4 rgba(c[0], c[1], c[2], hasAlpha ? c[3] : 1.0);
+    vertices.colors.emplace_back(glm::clamp(rgba, 0.0, 1.0));
+  }
+  return {};
 }
 
 Result<Vertices> readVertices(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
@@ -60,15 +98,8 @@ Result<Vertices> readVertices(const tinygltf::Model& model, const tinygltf::Prim
     vertices.normals = std::move(normals).value();
     if (Status s = checkCount(vertices.normals.size(), vertices, "NORMAL of " + what); !s) return s.error();
   }
-  if (const auto texcoord = attributes.find(texcoordName(model, primitive)); texcoord != attributes.end()) {
-    const std::string name = texcoord->first + " of " + what;
-    const Result<AccessorValues> values =
-        readAccessor(model, texcoord->second, {.name = name, .components = 2});
-    if (!values) return values.error();
-    if (Status s = checkCount(values->count, vertices, name); !s) return s.error();
-    for (std::size_t i = 0; i < values->count; ++i)
-      vertices.texcoords.push_back({(*values)[i][0], (*values)[i][1]});
-  }
+  if (Status s = readTexcoords(model, primitive, what, vertices); !s) return s.error();
+  if (Status s = readColors(model, primitive, what, vertices); !s) return s.error();
   return vertices;
 }
 
@@ -184,6 +215,20 @@ std::vector<std::uint32_t> trianglesOf(int mode, std::vector<std::uint32_t> corn
   return triangles;
 }
 
+/// World positions of what its node's transform flattens: no matrix takes them back.
+void applyFlattening(const glm::dmat4& worldFromNode, Vertices& vertices) {
+  for (glm::dvec3& position : vertices.positions)
+    position = glm::dvec3(worldFromNode * glm::dvec4(position, 1.0));
+  vertices.normals.clear();  // the facets' are what is left
+}
+
+/// More joint matrices mirror than do not.
+bool mostMirror(const std::vector<glm::dmat4>& matrices) {
+  const auto mirrors = std::ranges::count_if(
+      matrices, [](const glm::dmat4& m) { return glm::determinant(glm::dmat3(m)) < 0.0; });
+  return 2 * mirrors > static_cast<std::ptrdiff_t>(matrices.size());
+}
+
 /// Skinned vertices are world positions in double: about their middle single precision holds them as well as
 /// at the origin, wherever the skeleton stands.
 glm::dvec3 middleOf(const std::vector<glm::dvec3>& positions) {
@@ -205,7 +250,7 @@ std::vector<glm::vec3> unitNormals(const std::vector<glm::dvec3>& normals) {
 }  // namespace
 
 Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
-                                    std::vector<std::string>& notes) {
+                                    SkippedPrimitives& skipped) {
   const tinygltf::Mesh& source = model.meshes[request.mesh];
   const tinygltf::Primitive& primitive = source.primitives[request.primitive];
   const std::string what = nameOf(request);
@@ -214,7 +259,7 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
     return malformed(what + " has the unknown mode " + std::to_string(primitive.mode));
   }
   if (primitive.mode < TINYGLTF_MODE_TRIANGLES) {
-    notes.push_back(what + " consists of points or lines, which cast no shadow, and was skipped");
+    skipped.pointsOrLines.push_back(what);
     return PrimitiveMesh{};
   }
   Result<Vertices> vertices = readVertices(model, primitive, what);
@@ -223,6 +268,10 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
   if (Status s = applyMorphs(model, primitive, weights, what, *vertices); !s) return s.error();
   if (request.jointMatrices != nullptr) {
     if (Status s = applySkin(model, primitive, *request.jointMatrices, what, *vertices); !s) return s.error();
+  } else if (request.flattening != nullptr) {
+    applyFlattening(*request.flattening, *vertices);
+  }
+  if (request.jointMatrices != nullptr || request.flattening != nullptr) {
     result.centerWorld =
         request.centerWorld != nullptr ? *request.centerWorld : middleOf(vertices->positions);
     for (glm::dvec3& position : vertices->positions) position -= result.centerWorld;
@@ -232,12 +281,14 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
   if (!corners) return corners.error();
   std::vector<std::uint32_t> indices = trianglesOf(primitive.mode, std::move(corners).value());
   if (indices.empty()) {
-    notes.push_back(what + " has no triangles and was skipped");
+    skipped.withoutArea.push_back(what);
     return PrimitiveMesh{};
   }
   if (request.isMirrored) {
     for (glm::dvec3& position : vertices->positions) position.x = -position.x;
     for (glm::dvec3& normal : vertices->normals) normal.x = -normal.x;
+  }
+  if (request.isMirrored || (request.jointMatrices != nullptr && mostMirror(*request.jointMatrices))) {
     for (std::size_t i = 0; i + 2 < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
   }
   const std::vector<glm::vec3> positions(vertices->positions.begin(), vertices->positions.end());
@@ -249,9 +300,10 @@ Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const Primitiv
       .indexCount = indices.size(),
       .normals = normals.empty() ? nullptr : &normals.front().x,
       .texcoords = vertices->texcoords.empty() ? nullptr : &vertices->texcoords.front().x,
+      .colors = vertices->colors.empty() ? nullptr : &vertices->colors.front().x,
   });
   if (!mesh && mesh.error().code == ErrorCode::emptyScene) {
-    notes.push_back(what + " has only triangles without an area and was skipped");
+    skipped.withoutArea.push_back(what);
     return PrimitiveMesh{};
   }
   if (!mesh) return malformed(what + ": " + mesh.error().message);

@@ -21,8 +21,10 @@ struct PrimitiveRequest {
   const std::vector<double>* morphWeights = nullptr;  ///< null = the mesh's own
   const std::vector<glm::dmat4>* jointMatrices =
       nullptr;  ///< null = not skinned; else positions come out in world space, less a centre
-  /// Skins only: what to take off; null = the middle of this primitive. One for all primitives of a node, so
-  /// that vertices which they share stay shared.
+  /// Null, or what flattens the primitive: positions come out in world space, less a centre.
+  const glm::dmat4* flattening = nullptr;
+  /// Skins and what is flattened: what to take off; null = the middle of this primitive. One for all
+  /// primitives of a node, so that vertices which they share stay shared.
   const glm::dvec3* centerWorld = nullptr;
   /// The transform that will be applied mirrors: x is negated and the winding reversed here instead, so that
   /// the mesh is wound outward in its own space as well as in the world.
@@ -31,11 +33,17 @@ struct PrimitiveRequest {
 
 struct PrimitiveMesh {
   std::shared_ptr<const scene::TriangleMesh> mesh;
-  glm::dvec3 centerWorld{0.0};  ///< of skins: taken off the positions, to be put back by the transform
+  /// Of skins and of what is flattened: taken off the positions, to be put back by the transform.
+  glm::dvec3 centerWorld{0.0};
 };
 
-/// No mesh (with a note) for points, lines and primitives without a triangle that has an area.
+/// Primitives that are not drawn, "primitive 0 of mesh 3".
+struct SkippedPrimitives {
+  std::vector<std::string> pointsOrLines, withoutArea;
+};
+
+/// No mesh for points, lines and primitives without a triangle that has an area.
 Result<PrimitiveMesh> primitiveMesh(const tinygltf::Model& model, const PrimitiveRequest& request,
-                                    std::vector<std::string>& notes);
+                                    SkippedPrimitives& skipped);
 
 }  // namespace halfshadow::scenes

@@ -12,6 +12,8 @@
 #include <utility>
 
 #include "scenes/gltf_geometry.hpp"
+#include "scenes/gltf_instances.hpp"
+#include "scenes/gltf_lights.hpp"
 #include "scenes/gltf_materials.hpp"
 #include "scenes/gltf_pose.hpp"
 
@@ -20,27 +22,25 @@ namespace {
 using scene::SceneDescription;
 using scene::SceneObject;
 
-/// A light before the bounds are known, which directional lights are placed by.
-struct PendingLight {
-  std::size_t node = 0;
-  const tinygltf::Light* source = nullptr;
-  double width = 0.0, height = 0.0;
-};
-
 std::string label(const char* kind, std::size_t index, const std::string& name) {
   return std::string(kind) + " " + std::to_string(index) + (name.empty() ? "" : " '" + name + "'");
 }
 
-/// extras.halfshadow, or null.
-const tinygltf::Value* ownExtras(const tinygltf::Value& extras) {
-  if (!extras.IsObject() || !extras.Has("halfshadow")) return nullptr;
-  const tinygltf::Value& own = extras.Get("halfshadow");
-  return own.IsObject() ? &own : nullptr;
+/// a, b, c and 4 more
+std::string listed(const std::vector<std::string>& names, const char* quote = "'") {
+  constexpr std::size_t kShown = 3;
+  std::string text;
+  for (std::size_t i = 0; i < std::min(names.size(), kShown); ++i)
+    text += (i > 0 ? ", " : "") + (quote + names[i].substr(0, 60)) + quote;
+  if (names.size() > kShown) text += " and " + std::to_string(names.size() - kShown) + " more";
+  return text;
 }
 
 class GltfSceneBuilder {
  public:
-  GltfSceneBuilder(tinygltf::Model& model, const GltfOptions& options) : model_(model), options_(options) {}
+  GltfSceneBuilder(GltfFile& file, const GltfOptions& options) : model_(file.model), options_(options) {
+    scene_.notes = std::move(file.notes);
+  }
 
   Result<SceneDescription> build() {
     Result<Pose> pose = poseOf(model_, options_, scene_.notes);
@@ -50,18 +50,18 @@ class GltfSceneBuilder {
     const Result<std::vector<std::size_t>> nodes = nodesOfScene();
     if (!nodes) return nodes.error();
     for (const std::size_t node : *nodes) {
+      if (!pose_.isVisible[node]) continue;
       for (const auto step : {&GltfSceneBuilder::addMesh, &GltfSceneBuilder::addLight}) {
         if (Status status = (this->*step)(node); !status) return status.error();
       }
     }
-    if (scene_.objects.empty()) {
-      return Error{ErrorCode::emptyScene,
-                   "it has no triangles to draw in its scene; export a mesh (points and lines are skipped)"};
-    }
+    noteWhatAlphaDid();
+    noteWhatWasSkipped();
+    if (scene_.objects.empty()) return nothingToDraw();
     for (const std::size_t node : *nodes) {
       if (Status status = addCamera(node); !status) return status.error();
     }
-    if (Status status = finishLights(); !status) return status.error();
+    if (Status status = addLights(lights_, scene_); !status) return status.error();
     return std::move(scene_);
   }
 
@@ -115,72 +115,141 @@ class GltfSceneBuilder {
     if (node.mesh < 0 || static_cast<std::size_t>(node.mesh) >= model_.meshes.size()) {
       return malformed(what + " shows mesh " + std::to_string(node.mesh) + ", which does not exist");
     }
-    if (pose_.isScaledToNothing[nodeIndex] && node.skin == -1) {
-      scene_.notes.push_back(what + " is scaled to nothing and was skipped");
-      return {};
-    }
     PrimitiveRequest request{.mesh = node.mesh};
     std::vector<glm::dmat4> joints;
-    glm::dmat4 worldFromObject = pose_.worldFromNode[nodeIndex];
     if (node.skin != -1) {
       Result<std::vector<glm::dmat4>> matrices = jointMatrices(model_, pose_, node.skin);
       if (!matrices) return matrices.error();
       joints = std::move(matrices).value();
       request.jointMatrices = &joints;
-      worldFromObject = glm::dmat4(1.0);  // a skin's joints place it, not its node
     }
-    if (!pose_.weights[nodeIndex].empty()) request.morphWeights = &pose_.weights[nodeIndex];
-    const double determinant = glm::determinant(glm::dmat3(worldFromObject));
-    if (determinant == 0.0)
-      return malformed(what + " has a singular transform; give it three independent axes");
-    request.isMirrored = determinant < 0.0;
-    if (request.isMirrored)
-      worldFromObject = worldFromObject * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
-
-    const std::size_t count = model_.meshes[node.mesh].primitives.size();
-    glm::dvec3 center(0.0);
-    for (request.primitive = 0; request.primitive < count; ++request.primitive) {
-      const Result<PrimitiveMesh> made = meshFor(request);
-      if (!made) return made.error();
-      if (made->mesh == nullptr) continue;
-      if (request.jointMatrices != nullptr && request.centerWorld == nullptr) {
-        center = made->centerWorld;
-        request.centerWorld = &center;
-        worldFromObject = glm::translate(worldFromObject, center);
-      }
-      if (Status status = addObject(nodeIndex, request, made->mesh, worldFromObject); !status) return status;
+    const std::vector<double>& ofNode = pose_.weights[nodeIndex];
+    const std::vector<double>& weights = ofNode.empty() ? pose_.meshWeights[node.mesh] : ofNode;
+    if (!weights.empty()) request.morphWeights = &weights;
+    const Result<std::vector<glm::dmat4>> instances = instancesOf(model_, node, what);
+    if (!instances) return instances.error();
+    for (std::size_t i = 0; i < instances->size(); ++i) {
+      // A skin's joints place it, not its node.
+      const glm::dmat4 world =
+          node.skin != -1 ? glm::dmat4(1.0) : pose_.worldFromNode[nodeIndex] * (*instances)[i];
+      const std::string suffix = instances->size() > 1 ? "[" + std::to_string(i) + "]" : "";
+      if (Status status = addPlaced(nodeIndex, suffix, request, world); !status) return status;
     }
     return {};
   }
 
-  Status addObject(std::size_t nodeIndex, const PrimitiveRequest& request,
+  /// A transform has three axes that differ: what is flattened has not, nor what is scaled to nothing.
+  static bool isInvertible(const glm::dmat4& world) {
+    const glm::dmat3 axes(world);
+    const double volume = std::abs(glm::determinant(axes));
+    return volume > 1e-15 * glm::length(axes[0]) * glm::length(axes[1]) * glm::length(axes[2]);
+  }
+
+  /// The node's mesh, or one instance of it, by this transform.
+  Status addPlaced(std::size_t nodeIndex, const std::string& suffix, PrimitiveRequest request,
+                   glm::dmat4 worldFromObject) {
+    const glm::dmat4 asInFile = worldFromObject;
+    if (!isInvertible(worldFromObject)) {
+      request.flattening = &asInFile;
+      worldFromObject = glm::dmat4(1.0);
+    }
+    request.isMirrored = glm::determinant(glm::dmat3(worldFromObject)) < 0.0;
+    if (request.isMirrored)
+      worldFromObject = worldFromObject * glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1));
+    const bool isWorld = request.jointMatrices != nullptr || request.flattening != nullptr;
+    const std::size_t count = model_.meshes[request.mesh].primitives.size();
+    glm::dvec3 center(0.0);
+    std::size_t added = 0;
+    for (request.primitive = 0; request.primitive < count; ++request.primitive) {
+      const Result<PrimitiveMesh> made = meshFor(request);
+      if (!made) return made.error();
+      if (made->mesh == nullptr) continue;
+      ++added;
+      if (isWorld && request.centerWorld == nullptr) {
+        center = made->centerWorld;
+        request.centerWorld = &center;
+        worldFromObject = glm::translate(worldFromObject, center);
+      }
+      if (Status status = addObject(nodeIndex, suffix, request, made->mesh, worldFromObject); !status)
+        return status;
+    }
+    if (added == 0 && request.flattening != nullptr) {
+      scene_.notes.push_back(label("node", nodeIndex, model_.nodes[nodeIndex].name) + suffix +
+                             " is scaled to nothing and was skipped");
+    }
+    return {};
+  }
+
+  Status addObject(std::size_t nodeIndex, const std::string& suffix, const PrimitiveRequest& request,
                    std::shared_ptr<const scene::TriangleMesh> mesh, const glm::dmat4& worldFromObject) {
     const tinygltf::Mesh& source = model_.meshes[request.mesh];
     const int material = source.primitives[request.primitive].material;
     SceneObject object{
         .name = model_.nodes[nodeIndex].name, .mesh = std::move(mesh), .worldFromObject = worldFromObject};
     if (object.name.empty()) object.name = source.name.empty() ? label("node", nodeIndex, "") : source.name;
+    object.name += suffix;
     if (source.primitives.size() > 1) object.name += "#" + std::to_string(request.primitive);
     if (material >= static_cast<int>(materials_.size()) || material < -1) {
       return malformed("primitive " + std::to_string(request.primitive) + " of mesh " +
                        std::to_string(request.mesh) + " has material " + std::to_string(material) +
                        ", which does not exist");
     }
-    if (material >= 0) object.material = materials_[material];
+    if (material >= 0) object.material = materials_[material].material;
     if (object.mesh->texcoords.empty()) object.material.baseColorImage = nullptr;
+    const bool blends = material >= 0 && materials_[material].blends;
+    const Presence presence = presenceOf(object.material, *object.mesh);
+    if (presence == Presence::nothing) {
+      absent_.push_back(object.name);
+      return {};
+    }
+    if (presence == Presence::whole) object.material.alphaCutoff = 0.0f;
+    if (blends) blended_.push_back(object.name);
     object.casts = flag(nodeIndex, "casts");
     object.receives = flag(nodeIndex, "receives");
     scene_.objects.push_back(std::move(object));
     return {};
   }
 
+  void noteWhatWasSkipped() {
+    if (!skipped_.pointsOrLines.empty()) {
+      scene_.notes.push_back(listed(skipped_.pointsOrLines, "") +
+                             ": points or lines, which cast no shadow, were skipped");
+    }
+    if (!skipped_.withoutArea.empty()) {
+      scene_.notes.push_back(listed(skipped_.withoutArea, "") +
+                             ": no triangle that has an area; they were skipped");
+    }
+  }
+
+  Error nothingToDraw() const {
+    if (!absent_.empty()) {
+      return {ErrorCode::emptyScene,
+              "all that it holds is transparent (alpha below the cutoff); export a mesh "
+              "that can be seen"};
+    }
+    return {ErrorCode::emptyScene,
+            "it has no triangles to draw in its scene; export a mesh (points and lines are skipped)"};
+  }
+
+  void noteWhatAlphaDid() {
+    if (!absent_.empty()) {
+      scene_.notes.push_back(listed(absent_) + ": transparent all over (alpha below the cutoff), left out");
+    }
+    if (!blended_.empty()) {
+      scene_.notes.push_back(listed(blended_) +
+                             ": of alphaMode BLEND what is at least half opaque is drawn and casts as if it "
+                             "were opaque, the rest is left out");
+    }
+  }
+
   /// Nodes that show the same mesh undeformed share it.
   Result<PrimitiveMesh> meshFor(const PrimitiveRequest& request) {
-    const bool isShared = request.jointMatrices == nullptr && request.morphWeights == nullptr;
+    const bool isShared =
+        request.jointMatrices == nullptr && request.morphWeights == nullptr && request.flattening == nullptr;
     const auto key = std::make_tuple(request.mesh, request.primitive, request.isMirrored);
     if (const auto found = sharedMeshes_.find(key); isShared && found != sharedMeshes_.end())
       return PrimitiveMesh{found->second};
-    auto made = primitiveMesh(model_, request, scene_.notes);
+    auto made = primitiveMesh(model_, request, skipped_);
     if (made && isShared) sharedMeshes_[key] = made->mesh;
     return made;
   }
@@ -194,9 +263,8 @@ class GltfSceneBuilder {
     }
     const tinygltf::Camera& source = model_.cameras[index];
     const std::string what = label("camera", static_cast<std::size_t>(index), source.name);
-    if (scene_.camera || source.type != "perspective") {
-      scene_.notes.push_back(what + (scene_.camera ? " was skipped: only the first one is used"
-                                                   : " is not a perspective camera and was skipped"));
+    if (scene_.camera) {
+      scene_.notes.push_back(what + " was skipped: only the first one is used");
       return {};
     }
     const glm::dmat4& world = pose_.worldFromNode[nodeIndex];
@@ -213,81 +281,42 @@ class GltfSceneBuilder {
                                   .verticalFovRadians = source.perspective.yfov};
     scene_.camera->nearDistance = 1e-3 * distance;  // fitted to the scene by whoever completes it
     scene_.camera->farDistance = distance + 2.0 * bounds.radius();
+    if (source.type == "orthographic") {
+      if (Status status = moveFarAway(source.orthographic, what, *scene_.camera); !status) return status;
+    }
     if (Status status = scene::checkCamera(*scene_.camera); !status) {
       return malformed(what + ": " + status.error().message);
     }
     return {};
   }
 
-  Status addLight(std::size_t nodeIndex) {
-    const auto& extensions = model_.nodes[nodeIndex].extensions;
-    const auto found = extensions.find("KHR_lights_punctual");
-    if (found == extensions.end()) return {};
-    const std::string what = label("node", nodeIndex, model_.nodes[nodeIndex].name);
-    const tinygltf::Value& extension = found->second;
-    const int index = extension.IsObject() && extension.Has("light") && extension.Get("light").IsNumber()
-                          ? extension.Get("light").GetNumberAsInt()
-                          : -1;
-    if (index < 0 || static_cast<std::size_t>(index) >= model_.lights.size()) {
-      return malformed(what + " uses a light that does not exist; the file has " +
-                       std::to_string(model_.lights.size()));
+  /// An orthographic camera as a perspective one from so far away that its rays are parallel within a
+  /// fifth of a degree over a scene as deep as the picture is high.
+  static Status moveFarAway(const tinygltf::OrthographicCamera& source, const std::string& what,
+                            scene::Camera& camera) {
+    constexpr double kHeights = 300.0;
+    const double halfHeight = std::abs(source.ymag);
+    if (!(halfHeight > 0.0) || !std::isfinite(halfHeight)) {
+      return malformed(what + " has a ymag of " + std::to_string(source.ymag) +
+                       "; give a number that is not 0");
     }
-    PendingLight light{.node = nodeIndex, .source = &model_.lights[index]};
-    const tinygltf::Value* const places[] = {&model_.nodes[nodeIndex].extras, &light.source->extras};
-    for (const tinygltf::Value* extras : places) {
-      const tinygltf::Value* own = ownExtras(*extras);
-      if (own == nullptr || !own->Has("size")) continue;
-      if (!readSize(own->Get("size"), light)) {
-        return malformed("extras.halfshadow.size of the light at " + what +
-                         " must be one number or [width, height], both zero or both positive");
-      }
-      break;
-    }
-    lights_.push_back(light);
+    const glm::dvec3 way = camera.targetWorld - camera.eyeWorld;
+    const double moved = kHeights * std::max(halfHeight, glm::length(way));
+    camera.eyeWorld -= glm::normalize(way) * moved;
+    const double distance = glm::length(camera.targetWorld - camera.eyeWorld);
+    camera.verticalFovRadians = 2.0 * std::atan(halfHeight / distance);
+    camera.nearDistance = moved + 1e-3 * glm::length(way);
+    camera.leastNearDistance = moved + std::max(source.znear, 0.0);
+    camera.farDistance = std::max(camera.farDistance + moved, 2.0 * distance);
     return {};
   }
 
-  static bool readSize(const tinygltf::Value& size, PendingLight& light) {
-    if (size.IsNumber()) {
-      light.width = light.height = size.GetNumberAsDouble();
-    } else if (size.IsArray() && size.ArrayLen() == 2 && size.Get(0).IsNumber() && size.Get(1).IsNumber()) {
-      light.width = size.Get(0).GetNumberAsDouble();
-      light.height = size.Get(1).GetNumberAsDouble();
-    } else {
-      return false;
-    }
-    const bool areNumbers = std::isfinite(light.width) && std::isfinite(light.height);
-    return areNumbers && ((light.width > 0 && light.height > 0) || (light.width == 0 && light.height == 0));
-  }
-
-  Status finishLights() {
-    double brightest = 0.0;
-    for (const PendingLight& light : lights_) brightest = std::max(brightest, light.source->intensity);
-    const scene::Bounds bounds = scene::boundsWorld(scene_, scene::ObjectFilter::all);
-    for (const PendingLight& pending : lights_) {
-      const glm::dmat4& world = pose_.worldFromNode[pending.node];
-      const std::string what = label("light at node", pending.node, model_.nodes[pending.node].name);
-      const double length = glm::length(glm::dvec3(world[2]));
-      if (!(length > 0.0)) {
-        scene_.notes.push_back(what + " is scaled to nothing and was skipped");
-        continue;
-      }
-      const glm::dvec3 aim = -glm::dvec3(world[2]) / length;
-      const bool isDirectional = pending.source->type == "directional";
-      const glm::dvec3 center =
-          isDirectional ? bounds.center() - aim * (3.0 * bounds.radius()) : glm::dvec3(world[3]);
-      // The aim is a unit vector: far from the origin a target one unit away would be rounding noise.
-      const double reach = std::max(bounds.radius(), glm::length(center) * 1e-6 + 1e-6);
-      Result<scene::AreaLight> light = scene::areaLightAimed(center, center + aim * reach, pending.width,
-                                                             pending.height, glm::dvec3(world[1]));
-      if (!light) return malformed(what + ": " + light.error().message);
-      light->referenceDistance = 0.0;  // the file names no distance, and none may come from the bounds
-      const std::vector<double>& color = pending.source->color;
-      if (color.size() == 3) light->color = glm::vec3(color[0], color[1], color[2]);
-      // Candela and lux do not compare with anything here: the brightest light counts as 1.
-      light->intensity = brightest > 0.0 ? std::max(pending.source->intensity, 0.0) / brightest : 1.0;
-      scene_.lights.push_back(*light);
-    }
+  Status addLight(std::size_t nodeIndex) {
+    const tinygltf::Node& node = model_.nodes[nodeIndex];
+    Result<std::optional<PendingLight>> light =
+        lightOf(model_, node, pose_.worldFromNode[nodeIndex], label("node", nodeIndex, node.name));
+    if (!light) return light.error();
+    if (*light) lights_.push_back(**light);
     return {};
   }
 
@@ -295,7 +324,9 @@ class GltfSceneBuilder {
   const GltfOptions& options_;
   SceneDescription scene_;
   Pose pose_;
-  std::vector<scene::Material> materials_;
+  std::vector<GltfMaterial> materials_;
+  std::vector<std::string> absent_, blended_;  ///< objects by name
+  SkippedPrimitives skipped_;
   std::vector<PendingLight> lights_;
   std::map<std::tuple<int, std::size_t, bool>, std::shared_ptr<const scene::TriangleMesh>> sharedMeshes_;
 };
@@ -306,9 +337,9 @@ Error inFile(const std::string& path, const Error& error) {
 }  // namespace
 
 Result<SceneDescription> loadGltf(const std::string& path, const GltfOptions& options) {
-  Result<tinygltf::Model> model = parseGltfFile(path);
-  if (!model) return inFile(path, model.error());
-  Result<SceneDescription> built = GltfSceneBuilder(*model, options).build();
+  Result<GltfFile> file = parseGltfFile(path);
+  if (!file) return inFile(path, file.error());
+  Result<SceneDescription> built = GltfSceneBuilder(*file, options).build();
   if (!built) return inFile(path, built.error());
   built->name = std::filesystem::path(path).filename().string();
   return built;

@@ -4,110 +4,133 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
-#include <exception>
-#include <memory>
 
-#include "scenes/gltf_accessors.hpp"
+#include "scenes/gltf_images.hpp"
 
 namespace halfshadow::scenes {
 namespace {
-/// Decodes an image in a buffer view, or says why not.
-Status decodeFromView(const tinygltf::Model& model, tinygltf::Image& image, int index) {
-  const Result<ByteRange> range = bytesOfView(model, image.bufferView);
-  if (!range) return range.error();
-  std::string error, warning;
-  bool decoded = false;
-  image.width = image.height = -1;
-  try {
-    decoded = range->size > 0 && tinygltf::LoadImageData(&image, index, &error, &warning, 0, 0, range->begin,
-                                                         static_cast<int>(range->size), nullptr);
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  if (!decoded) return malformed("its bytes are not a PNG or JPEG image that can be decoded");
-  return {};
+/// Of alphaMode BLEND: what is at least half there counts as there.
+constexpr float kBlendCutoff = 0.5f;
+
+scene::ImageSampling samplingOf(const tinygltf::Model& model, int texture) {
+  scene::ImageSampling sampling;
+  if (texture < 0 || static_cast<std::size_t>(texture) >= model.textures.size()) return sampling;
+  const int index = model.textures[texture].sampler;
+  if (index < 0 || static_cast<std::size_t>(index) >= model.samplers.size()) return sampling;
+  const tinygltf::Sampler& sampler = model.samplers[index];
+  const auto wrapOf = [](int wrap) {
+    if (wrap == TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE) return ImageWrap::clampToEdge;
+    return wrap == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? ImageWrap::mirroredRepeat : ImageWrap::repeat;
+  };
+  sampling.wrapU = wrapOf(sampler.wrapS);
+  sampling.wrapV = wrapOf(sampler.wrapT);
+  if (sampler.magFilter == TINYGLTF_TEXTURE_FILTER_NEAREST) sampling.filter = ImageFilter::nearest;
+  return sampling;
 }
 
-/// 8 bits per channel, 3 or 4 channels; null when the sizes do not fit together.
-std::shared_ptr<const scene::Image> converted(const tinygltf::Image& source) {
-  const bool isWide = source.bits == 16;
-  if (source.width <= 0 || source.height <= 0 || source.component < 1 || source.component > 4 ||
-      (source.bits != 8 && !isWide)) {
-    return nullptr;
-  }
-  const auto pixelCount = static_cast<std::size_t>(source.width) * static_cast<std::size_t>(source.height);
-  const auto channels = static_cast<std::size_t>(source.component);
-  if (source.image.size() != pixelCount * channels * (isWide ? 2 : 1)) return nullptr;
-  const auto value = [&](std::size_t i) { return source.image[isWide ? 2 * i + 1 : i]; };  // high byte of two
-  scene::Image image{.width = source.width, .height = source.height};
-  const bool hasAlpha = channels == 2 || channels == 4, isGrey = channels <= 2;
-  image.channels = hasAlpha ? 4 : 3;
-  image.pixels.reserve(pixelCount * static_cast<std::size_t>(image.channels));
-  for (std::size_t p = 0; p < pixelCount; ++p) {
-    for (std::size_t c = 0; c < 3; ++c) image.pixels.push_back(value(p * channels + (isGrey ? 0 : c)));
-    if (hasAlpha) image.pixels.push_back(value(p * channels + channels - 1));
-  }
-  return std::make_shared<const scene::Image>(std::move(image));
+float cutoffOf(const tinygltf::Material& source) {
+  if (source.alphaMode == "BLEND") return kBlendCutoff;
+  if (source.alphaMode != "MASK" || !std::isfinite(source.alphaCutoff)) return 0.0f;
+  // Above 1 everything is cut away, also what has no alpha of its own.
+  return static_cast<float>(std::max(source.alphaCutoff, 0.0));
 }
 
-/// Images by index, decoded when first asked for.
-class ImageCache {
- public:
-  ImageCache(tinygltf::Model& model, std::vector<std::string>& notes)
-      : model_(model), notes_(notes), images_(model.images.size()), isTried_(model.images.size()) {}
-
-  std::shared_ptr<const scene::Image> at(int index) {
-    if (index < 0 || static_cast<std::size_t>(index) >= images_.size()) {
-      addNote("a base colour texture has no PNG or JPEG image; a plain colour is used");
-      return nullptr;
-    }
-    if (isTried_[index]) return images_[index];
-    isTried_[index] = true;
-    tinygltf::Image& source = model_.images[index];
-    std::string reason = "it is missing or not a PNG or JPEG image";
-    if (source.bufferView != -1) {
-      if (Status status = decodeFromView(model_, source, index); !status) reason = status.error().message;
-    }
-    images_[index] = converted(source);
-    if (!images_[index]) {
-      const std::string name = source.uri.empty() ? "" : " '" + source.uri.substr(0, 80) + "'";
-      notes_.push_back("image " + std::to_string(index) + name + " is not used: " + reason);
-    }
-    return images_[index];
-  }
-
- private:
-  void addNote(std::string note) {
-    if (std::find(notes_.begin(), notes_.end(), note) == notes_.end()) notes_.push_back(std::move(note));
-  }
-
-  tinygltf::Model& model_;
-  std::vector<std::string>& notes_;
-  std::vector<std::shared_ptr<const scene::Image>> images_;
-  std::vector<char> isTried_;
+/// Least and greatest alpha of all that the material and the mesh give.
+struct AlphaRange {
+  float low = 1.0f, high = 1.0f;
+  void times(float otherLow, float otherHigh) { low *= otherLow, high *= otherHigh; }
 };
+
+AlphaRange alphaRangeOf(const scene::Material& material, const scene::TriangleMesh& mesh) {
+  AlphaRange range{material.baseColor.a, material.baseColor.a};
+  if (!mesh.colors.empty()) {
+    const auto [low, high] =
+        std::ranges::minmax(mesh.colors, {}, [](const glm::vec4& color) { return color.a; });
+    range.times(low.a, high.a);
+  }
+  const scene::Image* image = material.baseColorImage.get();
+  if (image == nullptr || image->channels != 4 || mesh.texcoords.empty()) return range;
+  std::uint8_t low = 255, high = 0;
+  for (std::size_t i = 3; i < image->pixels.size(); i += 4) {
+    low = std::min(low, image->pixels[i]);
+    high = std::max(high, image->pixels[i]);
+  }
+  range.times(static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f);
+  return range;
+}
+
+/// Diffuse colour of KHR_materials_pbrSpecularGlossiness, where a material has that; files of before 2021 do.
+struct BaseColor {
+  std::vector<double> factor;
+  int texture = -1;
+};
+BaseColor baseColorOf(const tinygltf::Material& source) {
+  BaseColor base{source.pbrMetallicRoughness.baseColorFactor,
+                 source.pbrMetallicRoughness.baseColorTexture.index};
+  const auto found = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (found == source.extensions.end() || !found->second.IsObject()) return base;
+  const tinygltf::Value& factor = found->second.Get("diffuseFactor");
+  base.factor = {1, 1, 1, 1};
+  for (int c = 0; c < 4 && factor.ArrayLen() == 4; ++c) {
+    if (factor.Get(c).IsNumber()) base.factor[c] = factor.Get(c).GetNumberAsDouble();
+  }
+  const tinygltf::Value& texture = found->second.Get("diffuseTexture");
+  base.texture =
+      texture.IsObject() && texture.Get("index").IsNumber() ? texture.Get("index").GetNumberAsInt() : -1;
+  return base;
+}
 }  // namespace
 
-std::vector<scene::Material> materialsOf(tinygltf::Model& model, std::vector<std::string>& notes) {
-  ImageCache images(model, notes);
-  std::vector<scene::Material> materials;
+TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
+  const tinygltf::TextureInfo& texture = material.pbrMetallicRoughness.baseColorTexture;
+  TextureCoordinates result{.set = texture.texCoord};
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found == texture.extensions.end() || !found->second.IsObject()) return result;
+  const tinygltf::Value& transform = found->second;
+  const auto pair = [&](const char* key, glm::dvec2 otherwise) {
+    const tinygltf::Value& value = transform.Get(key);
+    if (!value.IsArray() || value.ArrayLen() != 2 || !value.Get(0).IsNumber() || !value.Get(1).IsNumber())
+      return otherwise;
+    return glm::dvec2(value.Get(0).GetNumberAsDouble(), value.Get(1).GetNumberAsDouble());
+  };
+  const glm::dvec2 offset = pair("offset", glm::dvec2(0.0)), scale = pair("scale", glm::dvec2(1.0));
+  const tinygltf::Value& rotation = transform.Get("rotation");
+  const double angle = rotation.IsNumber() ? rotation.GetNumberAsDouble() : 0.0;
+  const double c = std::cos(angle), s = std::sin(angle);
+  // Counter-clockwise as seen, with v downward.
+  result.imageFromFile =
+      glm::dmat3x2(c * scale.x, -s * scale.x, s * scale.y, c * scale.y, offset.x, offset.y);
+  const tinygltf::Value& set = transform.Get("texCoord");
+  if (set.IsNumber()) result.set = set.GetNumberAsInt();
+  return result;
+}
+
+Presence presenceOf(const scene::Material& material, const scene::TriangleMesh& mesh) {
+  if (material.alphaCutoff <= 0.0f) return Presence::whole;
+  const AlphaRange range = alphaRangeOf(material, mesh);
+  if (range.high < material.alphaCutoff) return Presence::nothing;
+  return range.low >= material.alphaCutoff ? Presence::whole : Presence::withHoles;
+}
+
+std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, std::vector<std::string>& notes) {
+  GltfImages images(model, notes);
+  std::vector<GltfMaterial> materials;
   for (const tinygltf::Material& source : model.materials) {
-    scene::Material material;
-    const std::vector<double>& factor = source.pbrMetallicRoughness.baseColorFactor;
+    GltfMaterial result{.blends = source.alphaMode == "BLEND"};
+    scene::Material& material = result.material;
+    const BaseColor base = baseColorOf(source);
+    const std::vector<double>& factor = base.factor;
     material.baseColor = glm::vec4(1.0f);
     for (int c = 0; c < 4 && factor.size() == 4; ++c) {
       material.baseColor[c] = std::isfinite(factor[c]) ? static_cast<float>(factor[c]) : 1.0f;
     }
     material.doubleSided = source.doubleSided;
-    if (const int texture = source.pbrMetallicRoughness.baseColorTexture.index; texture >= 0) {
-      if (static_cast<std::size_t>(texture) < model.textures.size()) {
-        material.baseColorImage = images.at(model.textures[texture].source);
-      } else {
-        notes.push_back("texture " + std::to_string(texture) + " does not exist; a plain colour is used");
-      }
+    material.alphaCutoff = cutoffOf(source);
+    if (base.texture >= 0) {
+      material.baseColorImage = images.ofTexture(base.texture);
+      material.sampling = samplingOf(model, base.texture);
     }
-    materials.push_back(std::move(material));
+    materials.push_back(std::move(result));
   }
   return materials;
 }

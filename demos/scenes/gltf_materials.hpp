@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// glTF materials as base colours and images (internal).
+/// glTF materials as base colours, images and alpha cutoffs (internal).
 #pragma once
 
+#include <glm/glm.hpp>
 #include <string>
 #include <vector>
 
@@ -12,7 +13,24 @@
 
 namespace halfshadow::scenes {
 
+struct GltfMaterial {
+  scene::Material material;
+  bool blends = false;  ///< alphaMode BLEND, which is cut like MASK
+};
+
 /// One per material of the file. Images that cannot be used leave a note and a plain colour.
-std::vector<scene::Material> materialsOf(tinygltf::Model& model, std::vector<std::string>& notes);
+std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, std::vector<std::string>& notes);
+
+/// Where a material's base colour image is looked up.
+struct TextureCoordinates {
+  int set = 0;                                   ///< TEXCOORD_n
+  glm::dmat3x2 imageFromFile{1, 0, 0, 1, 0, 0};  ///< times (u, v, 1): KHR_texture_transform
+};
+TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material);
+
+/// What there is of an object of this material.
+enum class Presence { nothing, withHoles, whole };
+/// Looks at all alpha that the object has: one without a hole anywhere need not be cut.
+Presence presenceOf(const scene::Material& material, const scene::TriangleMesh& mesh);
 
 }  // namespace halfshadow::scenes

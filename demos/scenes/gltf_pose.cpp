@@ -10,17 +10,10 @@
 #include <limits>
 
 #include "scenes/gltf_accessors.hpp"
+#include "scenes/gltf_animation.hpp"
 
 namespace halfshadow::scenes {
 namespace {
-struct LocalTransform {
-  glm::dvec3 translation{0.0};
-  glm::dvec4 rotation{0, 0, 0, 1};  ///< x, y, z, w as in the file
-  glm::dvec3 scale{1.0};
-  glm::dmat4 matrix{1.0};
-  bool hasMatrix = false;
-};
-
 std::string nodeName(const tinygltf::Model& model, std::size_t node) {
   const std::string& name = model.nodes[node].name;
   return "node " + std::to_string(node) + (name.empty() ? "" : " '" + name + "'");
@@ -53,9 +46,6 @@ Result<LocalTransform> restTransform(const tinygltf::Model& model, std::size_t i
     return malformed(nodeName(model, index) +
                      " has a transform of the wrong length; use 16 numbers for a matrix, "
                      "3 for a translation or scale, 4 for a rotation");
-  }
-  if (local.hasMatrix && !(std::abs(glm::determinant(glm::dmat3(local.matrix))) > 0.0)) {
-    return malformed(nodeName(model, index) + " has a singular matrix; give it three independent axes");
   }
   return local;
 }
@@ -101,121 +91,12 @@ Result<std::vector<int>> parentsOf(const tinygltf::Model& model, std::vector<std
   return parent;
 }
 
-/// Where a time lies among key times: keys `before` and `before` + 1, `share` of the way from the first.
-struct KeyPlace {
-  std::size_t before = 0;
-  double share = 0.0;
-  double spanSeconds = 0.0;
-};
-
-KeyPlace placeAmong(const AccessorValues& times, double seconds) {
-  const std::vector<double>& keys = times.numbers;
-  if (seconds <= keys.front()) return {};
-  if (seconds >= keys.back()) return {.before = keys.size() - 1};
-  const auto after =
-      static_cast<std::size_t>(std::upper_bound(keys.begin(), keys.end(), seconds) - keys.begin());
-  const double span = keys[after] - keys[after - 1];
-  return {.before = after - 1, .share = (seconds - keys[after - 1]) / span, .spanSeconds = span};
-}
-
-glm::dvec4 slerp(const glm::dvec4& a, glm::dvec4 b, double share) {
-  double cosine = glm::dot(a, b);
-  if (cosine < 0.0) b = -b, cosine = -cosine;
-  if (cosine > 0.9995) return glm::mix(a, b, share);  // sines of tiny angles lose their digits
-  const double angle = std::acos(cosine);
-  return (a * std::sin((1 - share) * angle) + b * std::sin(share * angle)) / std::sin(angle);
-}
-
-/// `width` numbers at an instant. Based on: glTF 2.0 specification, appendix C (interpolation).
-std::vector<double> interpolated(const std::string& mode, const AccessorValues& output, std::size_t width,
-                                 const KeyPlace& place, bool isRotation) {
-  const bool isCubic = mode == "CUBICSPLINE";
-  const auto at = [&](std::size_t key, std::size_t part) {  // part: 0 in-tangent, 1 value, 2 out-tangent
-    return output.numbers.data() + (isCubic ? (key * 3 + part) * width : key * width);
-  };
-  const double* first = at(place.before, 1);
-  std::vector<double> result(first, first + width);
-  if (place.share <= 0.0 || mode == "STEP") return result;
-  const double* second = at(place.before + 1, 1);
-  const double t = place.share;
-  if (isRotation && !isCubic) {
-    const glm::dvec4 q = slerp(glm::make_vec4(first), glm::make_vec4(second), t);
-    return {q.x, q.y, q.z, q.w};
-  }
-  const double* leaving = at(place.before, 2);
-  const double* arriving = at(place.before + 1, 0);
-  for (std::size_t i = 0; i < width; ++i) {
-    if (!isCubic) {
-      result[i] = first[i] + (second[i] - first[i]) * t;
-      continue;
-    }
-    const double t2 = t * t, t3 = t2 * t;
-    result[i] = (2 * t3 - 3 * t2 + 1) * first[i] + (t3 - 2 * t2 + t) * place.spanSeconds * leaving[i] +
-                (3 * t2 - 2 * t3) * second[i] + (t3 - t2) * place.spanSeconds * arriving[i];
-  }
-  return result;
-}
-
-struct Sampled {
-  std::vector<LocalTransform>& local;
-  std::vector<std::vector<double>>& weights;
-};
-
-Status applyChannel(const tinygltf::Model& model, const tinygltf::Animation& animation,
-                    std::size_t channelIndex, double seconds, Sampled target,
-                    std::vector<std::string>& notes) {
-  const tinygltf::AnimationChannel& channel = animation.channels[channelIndex];
-  const std::string what = "channel " + std::to_string(channelIndex) + " of the animation";
-  if (channel.target_node == -1) return {};
-  if (channel.target_node < 0 || static_cast<std::size_t>(channel.target_node) >= model.nodes.size()) {
-    return malformed(what + " moves node " + std::to_string(channel.target_node) + ", which does not exist");
-  }
-  if (channel.sampler < 0 || static_cast<std::size_t>(channel.sampler) >= animation.samplers.size()) {
-    return malformed(what + " uses sampler " + std::to_string(channel.sampler) + ", which does not exist");
-  }
-  const tinygltf::AnimationSampler& sampler = animation.samplers[channel.sampler];
-  const std::string& path = channel.target_path;
-  const bool isRotation = path == "rotation", isWeights = path == "weights";
-  if (!isRotation && !isWeights && path != "translation" && path != "scale") {
-    notes.push_back(what + " moves '" + path.substr(0, 40) + "', which is not supported and was skipped");
-    return {};
-  }
-  const std::string& mode = sampler.interpolation;
-  if (mode != "STEP" && mode != "LINEAR" && mode != "CUBICSPLINE") {
-    return malformed(what + " has the unknown interpolation '" + mode.substr(0, 40) + "'");
-  }
-  const Result<AccessorValues> times = readAccessor(model, sampler.input, {.name = "key times of " + what});
-  if (!times) return times.error();
-  if (times->count == 0 || !std::is_sorted(times->numbers.begin(), times->numbers.end())) {
-    return malformed("the key times of " + what + " are missing or do not increase");
-  }
-  const std::size_t components = isWeights ? 1 : isRotation ? 4 : 3;
-  const Result<AccessorValues> output =
-      readAccessor(model, sampler.output, {.name = "values of " + what, .components = components});
-  if (!output) return output.error();
-  const std::size_t perKey = mode == "CUBICSPLINE" ? 3 : 1;
-  const std::size_t keyed = times->count * perKey;
-  const bool countsMatch =
-      isWeights ? output->count % keyed == 0 && output->count > 0 : output->count == keyed;
-  if (!countsMatch) {
-    return malformed(what + " has " + std::to_string(output->count) + " values for " +
-                     std::to_string(times->count) + " key times; export it again");
-  }
-  const std::size_t width = isWeights ? output->count / keyed : components;
-  const std::vector<double> value =
-      interpolated(mode, *output, width, placeAmong(*times, seconds), isRotation);
-  LocalTransform& local = target.local[channel.target_node];
-  if (isWeights) {
-    target.weights[channel.target_node] = value;
-  } else if (local.hasMatrix) {
-    notes.push_back(what + " moves " + nodeName(model, channel.target_node) +
-                    ", which has a matrix, and was skipped");
-  } else if (isRotation) {
-    local.rotation = glm::make_vec4(value.data());
-  } else {
-    (path == "scale" ? local.scale : local.translation) = glm::make_vec3(value.data());
-  }
-  return {};
+/// KHR_node_visibility, without the ancestors'.
+char isVisible(const tinygltf::Node& node) {
+  const auto found = node.extensions.find("KHR_node_visibility");
+  if (found == node.extensions.end() || !found->second.IsObject()) return 1;
+  const tinygltf::Value& visible = found->second.Get("visible");
+  return !visible.IsBool() || visible.Get<bool>();
 }
 }  // namespace
 
@@ -227,13 +108,15 @@ Result<Pose> poseOf(const tinygltf::Model& model, const GltfOptions& options,
   if (!parent) return parent.error();
   pose.parent = std::move(parent).value();
 
-  std::vector<LocalTransform> local;
+  Movable movable;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Result<LocalTransform> rest = restTransform(model, i);
     if (!rest) return rest.error();
-    local.push_back(*rest);
-    pose.weights.push_back(model.nodes[i].weights);
+    movable.local.push_back(*rest);
+    movable.weights.push_back(model.nodes[i].weights);
+    movable.isVisible.push_back(isVisible(model.nodes[i]));
   }
+  for (const tinygltf::Mesh& mesh : model.meshes) movable.meshWeights.push_back(mesh.weights);
   const int count = static_cast<int>(model.animations.size());
   const bool isRest = options.animationIndex == -1 || (options.animationIndex == 0 && count == 0);
   if (!isRest && (options.animationIndex < 0 || options.animationIndex >= count)) {
@@ -244,17 +127,14 @@ Result<Pose> poseOf(const tinygltf::Model& model, const GltfOptions& options,
     return Error{ErrorCode::invalidArgument, "the animation time is NaN or infinite; give seconds"};
   }
   if (!isRest) {
-    const tinygltf::Animation& animation = model.animations[options.animationIndex];
-    for (std::size_t i = 0; i < animation.channels.size(); ++i) {
-      const Status status =
-          applyChannel(model, animation, i, options.animationTimeSeconds, {local, pose.weights}, notes);
-      if (!status) return status.error();
-    }
+    const Status status = applyAnimation(model, model.animations[options.animationIndex],
+                                         options.animationTimeSeconds, movable, notes);
+    if (!status) return status.error();
   }
   pose.worldFromNode.resize(model.nodes.size());
-  pose.isScaledToNothing.resize(model.nodes.size());
+  pose.isVisible.resize(model.nodes.size());
   for (const std::size_t i : parentsFirst) {
-    const Result<glm::dmat4> own = parentFromNode(model, i, local[i]);
+    const Result<glm::dmat4> own = parentFromNode(model, i, movable.local[i]);
     if (!own) return own.error();
     const int above = pose.parent[i];
     pose.worldFromNode[i] = above < 0 ? *own : pose.worldFromNode[above] * *own;
@@ -262,9 +142,10 @@ Result<Pose> poseOf(const tinygltf::Model& model, const GltfOptions& options,
       return malformed(nodeName(model, i) +
                        " has a transform that is NaN, infinite or overflows; give finite numbers");
     }
-    const glm::dvec3& s = local[i].scale;
-    pose.isScaledToNothing[i] = s.x * s.y * s.z == 0.0 || (above >= 0 && pose.isScaledToNothing[above]);
+    pose.isVisible[i] = movable.isVisible[i] && (above < 0 || pose.isVisible[above]);
   }
+  pose.weights = std::move(movable.weights);
+  pose.meshWeights = std::move(movable.meshWeights);
   return pose;
 }
 

@@ -14,10 +14,11 @@
 namespace halfshadow::scenes {
 
 struct Pose {
-  std::vector<glm::dmat4> worldFromNode;     ///< finite
-  std::vector<std::vector<double>> weights;  ///< of morph targets, per node; empty = the mesh's own
-  std::vector<char> isScaledToNothing;       ///< per node: it or an ancestor has a zero in its scale
-  std::vector<int> parent;                   ///< per node, -1 = root
+  std::vector<glm::dmat4> worldFromNode;         ///< finite
+  std::vector<std::vector<double>> weights;      ///< of morph targets, per node; empty = the mesh's own
+  std::vector<std::vector<double>> meshWeights;  ///< per mesh: its own, or what an animation sets
+  std::vector<char> isVisible;                   ///< per node: neither it nor an ancestor is hidden
+  std::vector<int> parent;                       ///< per node, -1 = root
 };
 
 /// Checks that the nodes form trees, samples the animation and multiplies the transforms out.

@@ -9,17 +9,18 @@
 #include <limits>
 
 #include "scenes/added_ground.hpp"
+#include "scenes/added_lamp.hpp"
 #include "scenes/builtin_scenes.hpp"
+#include "scenes/fitted_camera.hpp"
 #include "scenes/gltf_loader.hpp"
 #include "scenes/shapes.hpp"
+#include "scenes/triangle_tree.hpp"
 
 namespace halfshadow::scenes {
 namespace {
 using scene::Bounds;
 using scene::SceneDescription;
 using scene::SceneObject;
-
-constexpr double kFovRadians = 34.0 * 3.14159265358979323846 / 180.0;
 
 Bounds boundsWorldOf(const SceneObject& object) {
   Bounds bounds;
@@ -36,6 +37,9 @@ std::vector<Bounds> boundsPerObject(const SceneDescription& description) {
   return bounds;
 }
 
+/// Of the width times the depth of what stands on it.
+constexpr double kSmallFloorShare = 0.25;
+
 bool isFloor(const SceneDescription& description, const std::vector<Bounds>& bounds, std::size_t candidate) {
   const SceneObject& object = description.objects[candidate];
   if (!object.receives) return false;
@@ -47,7 +51,12 @@ bool isFloor(const SceneDescription& description, const std::vector<Bounds>& bou
   if (!(size.y < 0.25 * std::min(size.x, size.z))) return false;
   if (others.empty()) return !object.casts;
   const glm::dvec3 otherSize = others.high - others.low;
-  return size.x >= otherSize.x && size.z >= otherSize.z && bounds[candidate].low.y <= others.center().y;
+  if (size.x >= otherSize.x && size.z >= otherSize.z) return bounds[candidate].low.y <= others.center().y;
+  // A smaller one lies under what stands on it.
+  const glm::dvec3 shared = glm::max(
+      glm::min(bounds[candidate].high, others.high) - glm::max(bounds[candidate].low, others.low), 0.0);
+  return shared.x * shared.z >= kSmallFloorShare * otherSize.x * otherSize.z &&
+         bounds[candidate].low.y <= others.low.y && bounds[candidate].high.y <= others.center().y;
 }
 
 bool hasFloor(const SceneDescription& description) {
@@ -57,6 +66,9 @@ bool hasFloor(const SceneDescription& description) {
   }
   return false;
 }
+
+/// Of what stands on it: a floor up to here belongs into the picture.
+constexpr double kWideFloorRadii = 2.0;
 
 /// What light and camera are fitted to: the casters without what is only the floor under them.
 Bounds subjectBounds(const SceneDescription& description) {
@@ -88,10 +100,11 @@ void addGround(SceneDescription& description, const Bounds& subject, double heig
 }
 
 /// With the camera and the lights that the scene has in the end.
-void addGroundIfWanted(SceneDescription& description, const Bounds& subject, GroundMode mode) {
+void addGroundIfWanted(SceneDescription& description, const TriangleTree& tree, const Bounds& subject,
+                       GroundMode mode) {
   if (mode == GroundMode::off || hasGround(description)) return;
   if (mode == GroundMode::automatic && hasFloor(description)) return;
-  const GroundPlace place = groundPlaceFor(description);
+  const GroundPlace place = groundPlaceFor(description, tree);
   if (mode == GroundMode::automatic && !place.wanted) {
     description.notes.push_back(place.note);
     return;
@@ -105,79 +118,95 @@ void addGroundIfWanted(SceneDescription& description, const Bounds& subject, Gro
   }
 }
 
-Status addLight(SceneDescription& description, const Bounds& subject) {
-  const double distance = 3.0 * subject.radius();
-  const glm::dvec3 center = subject.center() + distance * glm::normalize(glm::dvec3(0.35, 1.0, 0.3));
-  const double size = 2 * 0.1 * distance;
-  const auto light = scene::areaLightAimed(center, subject.center(), size, size, {0.2, 0.1, 1.0});
-  if (!light) return light.error();
-  description.lights = {*light};
-  description.notes.push_back(
-      "the scene has no light: one was placed three radii above and beside its centre");
+Status addLight(SceneDescription& description, const TriangleTree& tree, const Bounds& subject) {
+  Result<LampPlace> lamp = lampPlaceFor(description, tree, subject);
+  if (!lamp) return lamp.error();
+  description.lights = {lamp->light};
+  description.notes.push_back(std::move(lamp->note));
   return {};
 }
 
-/// The box of the casters and of their shadow, cast from the light's centre onto the plane at their lowest y.
-Bounds casterAndShadowBounds(const Bounds& subject, const scene::AreaLight& light) {
-  Bounds result = subject;
-  for (const glm::dvec3& corner : subject.corners()) {
-    const double drop = light.centerWorld.y - corner.y;
-    if (!(drop > 0.0)) continue;
-    const double stretch = (light.centerWorld.y - subject.low.y) / drop;
-    // A light near the horizon casts endless shadows; twice the radius of one is enough to look at.
-    const glm::dvec3 offset = (corner - light.centerWorld) * (stretch - 1.0);
-    const double limit = 2.0 * subject.radius(), length = glm::length(offset);
-    result.include(corner + (length > limit ? offset * (limit / length) : offset));
+void addCamera(SceneDescription& description, const Bounds& subject) {
+  const std::vector<Bounds> bounds = boundsPerObject(description);
+  std::vector<char> isSubject;
+  for (std::size_t i = 0; i < bounds.size(); ++i) {
+    const bool isWideFloor =
+        isFloor(description, bounds, i) && bounds[i].radius() > kWideFloorRadii * subject.radius();
+    isSubject.push_back(description.objects[i].casts && !isWideFloor);
   }
-  return result;
+  description.camera =
+      cameraFittedTo(castersAndShadows(description, isSubject, subject, description.lights.front()));
+  description.notes.push_back("the scene has no camera: one was fitted to its casters and their shadow");
 }
 
-void addCamera(SceneDescription& description, const Bounds& subject) {
-  const Bounds seen = casterAndShadowBounds(subject, description.lights.front());
-  scene::Camera camera{.targetWorld = seen.center(), .verticalFovRadians = kFovRadians};
-  const glm::dvec3 forward = glm::normalize(glm::dvec3(0.55, -0.75, -0.6));
-  const glm::dvec3 right = glm::normalize(glm::cross(forward, camera.up));
-  const glm::dvec3 up = glm::cross(right, forward);
-  const double tanHalf = std::tan(kFovRadians / 2), tanHalfWide = tanHalf * 4 / 3;
-  double distance = 0.0;
-  for (const glm::dvec3& corner : seen.corners()) {
-    const glm::dvec3 offset = corner - camera.targetWorld;
-    const double needed =
-        std::max(std::abs(glm::dot(offset, up)) / tanHalf, std::abs(glm::dot(offset, right)) / tanHalfWide);
-    distance = std::max(distance, needed - glm::dot(offset, forward));
+/// The rotation that brings `up` to +y, about the axis across both.
+glm::dmat4 turnedUpright(const glm::dvec3& up) {
+  const glm::dvec3 from = glm::normalize(up), y(0, 1, 0);
+  const double cosine = from.y;
+  if (cosine > 1.0 - 1e-12) return glm::dmat4(1.0);
+  if (cosine < -1.0 + 1e-12) return glm::scale(glm::dmat4(1.0), glm::dvec3(1, -1, -1));
+  return glm::rotate(glm::dmat4(1.0), std::acos(cosine), glm::cross(from, y));
+}
+
+void turn(SceneDescription& description, const glm::dmat4& rotation) {
+  const glm::dmat3 linear(rotation);
+  for (SceneObject& object : description.objects) object.worldFromObject = rotation * object.worldFromObject;
+  for (scene::AreaLight& light : description.lights) {
+    light.centerWorld = linear * light.centerWorld;
+    light.halfU = linear * light.halfU;
+    light.halfV = linear * light.halfV;
+    light.emission = linear * light.emission;
   }
-  camera.eyeWorld = camera.targetWorld - forward * (1.05 * distance);
-  description.camera = camera;
-  description.notes.push_back("the scene has no camera: one was fitted to its casters and their shadow");
+  if (!description.camera) return;
+  description.camera->eyeWorld = linear * description.camera->eyeWorld;
+  description.camera->targetWorld = linear * description.camera->targetWorld;
+  description.camera->up = linear * description.camera->up;
 }
 
 }  // namespace
 
-Status completeScene(SceneDescription& description, const SceneOptions& options) {
-  if (options.ground == GroundMode::off) removeGround(description);
+namespace {
+/// In a world whose up is +y; overrides are the scene's own already.
+Status completeUpright(SceneDescription& description, const SceneOptions& options) {
   if (description.objects.empty()) {
     return Error{ErrorCode::emptyScene,
                  description.name + ": the scene has no triangles; give one that has some"};
   }
   const Bounds subject = subjectBounds(description);
-  if (options.light) description.lights = {*options.light};
-  description.lights.insert(description.lights.end(), options.moreLights.begin(), options.moreLights.end());
+  const TriangleTree tree(description);
   if (description.lights.empty()) {
-    if (Status status = addLight(description, subject); !status) return status;
+    if (Status status = addLight(description, tree, subject); !status) return status;
   }
-  if (options.camera) {
-    description.camera = *options.camera;
-  } else if (!description.camera) {
-    addCamera(description, subject);
-  }
+  if (!description.camera) addCamera(description, subject);
   if (Status status = scene::checkCamera(*description.camera); !status) return status;
-  addGroundIfWanted(description, subject, options.ground);
+  addGroundIfWanted(description, tree, subject, options.ground);
   if (std::ranges::none_of(description.objects, &SceneObject::receives)) {
     return Error{ErrorCode::emptyScene,
                  description.name +
                      ": nothing in the scene receives shadows; mark an object with receives = true or use "
                      "--ground on"};
   }
+  return {};
+}
+}  // namespace
+
+Status completeScene(SceneDescription& description, const SceneOptions& options) {
+  if (!(glm::length(options.up) > 0.0) || !std::isfinite(glm::length(options.up))) {
+    return Error{ErrorCode::invalidArgument,
+                 "the up axis needs a direction; give finite numbers, not all zero"};
+  }
+  if (options.light) description.lights = {*options.light};
+  description.lights.insert(description.lights.end(), options.moreLights.begin(), options.moreLights.end());
+  if (options.camera) {
+    if (Status status = scene::checkCamera(*options.camera); !status) return status;
+    description.camera = *options.camera;
+  }
+  const glm::dmat4 upright = turnedUpright(options.up);
+  const bool isTurned = upright != glm::dmat4(1.0);
+  if (isTurned) turn(description, upright);
+  const Status completed = completeUpright(description, options);
+  if (isTurned) turn(description, glm::transpose(upright));
+  if (!completed) return completed;
   fitNearAndFar(*description.camera, description);
   return scene::checkCamera(*description.camera);
 }
@@ -190,6 +219,8 @@ Result<SceneDescription> openScene(const std::string& source, const SceneOptions
                                                        .animationIndex = options.animationIndex});
   if (!opened) return opened.error();
   SceneDescription description = std::move(opened).value();
+  // What a file holds stays; the grounds of built-in scenes are the tool's own.
+  if (options.ground == GroundMode::off && source.starts_with(kBuiltin)) removeGround(description);
   if (Status status = completeScene(description, options); !status) return status.error();
   return description;
 }

@@ -14,8 +14,9 @@
 namespace halfshadow::scenes {
 
 /// automatic: a ground plane is added unless the scene already has a floor, or would be hidden by one (see
-/// added_ground.hpp). A floor is an object that receives, is at least as wide in x and in z as all other
-/// casters together, begins at or below their middle, and is flat (less high than a quarter of its width).
+/// added_ground.hpp). A floor is an object that receives and is flat (less high than a quarter of its width),
+/// and that either is at least as wide in x and in z as all other casters together and begins at or below
+/// their middle, or lies below all of them and covers a quarter of what they do.
 enum class GroundMode { automatic, on, off };
 
 struct SceneOptions {
@@ -25,18 +26,21 @@ struct SceneOptions {
   std::optional<scene::Camera> camera;       ///< replaces the scene's; near and far are fitted anyway
   std::optional<scene::AreaLight> light;     ///< replaces all of the scene's lights
   std::vector<scene::AreaLight> moreLights;  ///< stand beside `light`
+  /// What the scene takes for upward: where an added ground, lamp and camera stand. Need not be unit.
+  glm::dvec3 up{0, 1, 0};
 };
 
 /// Opens `builtin:NAME[@key=value,…]` or a .gltf/.glb file. The result always has a camera, at least one
 /// light and at least one object that receives. What was added is said in `notes`. The rules, with r the
 /// radius and c the centre of the casters' bounds (of all objects, when none casts):
-///  - light: centre c + 3 r · norm(0.35, 1, 0.3), aimed at c, square, half size 0.1 × its distance;
-///  - camera: vertical field of view 34°, looking along norm(0.55, -0.75, -0.6) at the middle of the casters
-///    and of their shadow on the ground, just far enough to see both in a 4:3 image;
+///  - light: centre c + 3 r · norm(0.35, 1, 0.3), aimed at c, square, half size 0.1 × its distance; where
+///    that does not reach what the scene's camera sees, over that (see added_lamp.hpp);
+///  - camera: vertical field of view 34°, looking along norm(0.5, -0.6, -0.75), just far enough to see the
+///    casters and their shadow on the ground in a 4:3 image (see fitted_camera.hpp);
 ///  - ground: plane at the scene's lowest y, casts = false, 40 r wide, below the centre of the casters; not
 ///    where it would come between the camera or a light and the scene, or lie in a surface that is seen (see
-///    added_ground.hpp). GroundMode::on adds it to all scenes, GroundMode::off removes objects named `ground`
-///    that cast nothing;
+///    added_ground.hpp). GroundMode::on adds it to all scenes, GroundMode::off to none, and removes that of
+///    built-in scenes;
 ///  - near and far: see fitNearAndFar.
 /// Errors: those of makeBuiltinScene and loadGltf; invalidCamera, invalidLight (for the overrides);
 /// emptyScene.

@@ -188,6 +188,7 @@ ValidationReport validateScene(const scene::SceneDescription& description) {
     if (object.casts) {
       ++report.casters;
       report.openCasters += !objectReport.closed;
+      report.cutCasters += object.material.alphaCutoff > 0.0f;
       report.repairedCasters += !objectReport.repairs.empty();
       report.casterParts += objectReport.parts;
       report.casterBoundsWorld.include(objectReport.boundsWorld);

@@ -50,6 +50,7 @@ struct ValidationReport {
   std::uint32_t casters = 0;
   std::uint32_t openCasters = 0;      ///< with sheets
   std::uint32_t repairedCasters = 0;  ///< whose adjacency needed mending
+  std::uint32_t cutCasters = 0;       ///< into which alpha cuts holes
   std::uint32_t casterParts = 0;      ///< of all casters
   std::vector<std::string> warnings;  ///< about the whole scene; loader notes come first
 };

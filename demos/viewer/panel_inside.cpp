@@ -63,11 +63,9 @@ void insidePanel(PanelInput& in) {
     in.requests.toggleLightView = true;
   heading("Images of the last frame");
   const Engine& engine = in.picture.engine();
-  std::vector<ImageRecord> images;
-  for (std::size_t i = 0; i < engine.imageCount(); ++i) {
-    const ImageRecord image = engine.image(i);
-    if (image.texture != in.picture.texture()) images.push_back(image);
-  }
+  std::vector<ImageRecord> images(engine.images(nullptr, 0));
+  engine.images(images.data(), images.size());
+  std::erase_if(images, [&](const ImageRecord& image) { return image.texture == in.picture.texture(); });
   if (images.empty()) {
     help("This technique keeps nothing in images.");
     return;

@@ -4,13 +4,13 @@
 
 #include <algorithm>
 #include <memory>
-#include <string>
+#include <new>
 
 #include "halfshadow/halfshadow.hpp"
 
 struct HalfshadowEngine {
   std::unique_ptr<halfshadow::Engine> engine;
-  std::string message;
+  const char* message = "";  ///< the engine's, or a literal
 };
 
 namespace {
@@ -22,7 +22,7 @@ HalfshadowError finish(HalfshadowEngine* engine, const Outcome& outcome) {
 }
 
 HalfshadowError refuse(HalfshadowEngine* engine, const char* message) {
-  engine->message = message;
+  if (engine) engine->message = message;
   return HALFSHADOW_INVALID_ARGUMENT;
 }
 
@@ -33,6 +33,8 @@ bool fits(const T* desc) {
 }
 constexpr const char* kWrongSize =
     "a struct is null or its struct_size is not sizeof the struct of this header";
+
+constexpr const char* kNoEngine = "the engine is null; use one that halfshadow_create made";
 
 template <typename T, std::size_t n>
 void copy(const T (&source)[n], T (&target)[n]) {
@@ -52,11 +54,17 @@ HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, Halfshadow
                                     .getProcAddressUser = desc->get_proc_address_user,
                                     .forcedOff = desc->forced_off,
                                     .forcedOffCount = desc->forced_off_count,
-                                    .hostState = static_cast<halfshadow::HostState>(desc->host_state)},
+                                    .hostState = static_cast<halfshadow::HostState>(desc->host_state),
+                                    .programProofs = desc->program_proofs},
                                    outcome);
     if (engine) {
-      made = std::make_unique<HalfshadowEngine>();
-      made->engine.reset(engine);
+      made.reset(new (std::nothrow) HalfshadowEngine);
+      if (made) {
+        made->engine.reset(engine);
+      } else {
+        delete engine;
+        outcome = {halfshadow::ErrorCode::outOfMemory, "the system has no memory left for an engine"};
+      }
     }
   }
   if (error) *error = static_cast<HalfshadowError>(outcome.code);
@@ -69,41 +77,53 @@ void halfshadow_destroy(HalfshadowEngine* engine) {
 }
 
 const char* halfshadow_message(const HalfshadowEngine* engine) {
-  return engine->message.c_str();
+  return engine ? engine->message : "";
 }
 
 HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const HalfshadowObjectDesc* desc,
                                       uint32_t* id) {
-  if (!fits(desc) || id == nullptr) return refuse(engine, kWrongSize);
+  if (engine == nullptr) return refuse(engine, kNoEngine);
+  if (!fits(desc)) return refuse(engine, kWrongSize);
+  if (id == nullptr) return refuse(engine, "halfshadow_add_object needs a place for the id");
   halfshadow::ObjectDesc object;
   object.mesh = {.positions = desc->positions,
                  .positionStrideBytes = desc->position_stride_bytes ? desc->position_stride_bytes : 12,
                  .vertexCount = desc->vertex_count,
                  .indices = desc->indices,
                  .indexCount = desc->index_count,
-                 .normals = desc->normals};
+                 .normals = desc->normals,
+                 .texcoords = desc->texcoords,
+                 .colors = desc->colors};
   const bool placed =
       std::any_of(desc->world_from_object, desc->world_from_object + 16, [](double e) { return e != 0; });
   if (placed) copy(desc->world_from_object, object.worldFromObject);
   object.casts = desc->casts != 0;
   object.receives = desc->receives != 0;
   copy(desc->base_color, object.baseColor);
+  object.baseColorPixels = desc->base_color_pixels;
+  object.baseColorWidth = desc->base_color_width;
+  object.baseColorHeight = desc->base_color_height;
+  object.baseColorChannels = desc->base_color_channels ? desc->base_color_channels : 4;
+  object.alphaCutoff = desc->alpha_cutoff;
   return finish(engine, engine->engine->addObject(object, *id));
 }
 
 HalfshadowError halfshadow_set_transform(HalfshadowEngine* engine, uint32_t id,
                                          const double world_from_object[16]) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   if (world_from_object == nullptr)
     return refuse(engine, "halfshadow_set_transform needs a matrix of 16 numbers");
   return finish(engine, engine->engine->setTransform(id, world_from_object));
 }
 
 HalfshadowError halfshadow_remove_object(HalfshadowEngine* engine, uint32_t id) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   return finish(engine, engine->engine->removeObject(id));
 }
 
 HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const HalfshadowLightDesc* lights,
                                       size_t count) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   halfshadow::LightDesc descs[halfshadow::kMaxLights];
   if (count > static_cast<size_t>(halfshadow::kMaxLights)) return refuse(engine, "at most 4 lights");
   for (size_t i = 0; i < count; ++i) {
@@ -115,20 +135,25 @@ HalfshadowError halfshadow_set_lights(HalfshadowEngine* engine, const Halfshadow
     copy(lights[i].color, descs[i].color);
     descs[i].intensity = lights[i].intensity;
     descs[i].referenceDistance = lights[i].reference_distance;
+    descs[i].innerConeRadians = lights[i].inner_cone_radians;
+    descs[i].outerConeRadians = lights[i].outer_cone_radians;
   }
   return finish(engine, engine->engine->setLights(descs, count));
 }
 
 HalfshadowError halfshadow_set_technique(HalfshadowEngine* engine, const char* id) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   return finish(engine, engine->engine->setTechnique(id));
 }
 
 HalfshadowError halfshadow_set(HalfshadowEngine* engine, const char* key, const char* value) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   return finish(engine, engine->engine->set(key, value));
 }
 
 HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRenderDesc* desc,
                                   HalfshadowReport* report) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   if (!fits(desc) || (report != nullptr && !fits(report))) return refuse(engine, kWrongSize);
   if (desc->output < HALFSHADOW_SHADED || desc->output > HALFSHADOW_LIGHTS_ONLY)
     return refuse(engine, "unknown output");
@@ -159,15 +184,36 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
 }
 
 uint32_t halfshadow_output_texture(const HalfshadowEngine* engine) {
-  return engine->engine->outputTexture();
+  return engine ? engine->engine->outputTexture() : 0;
 }
 
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
   return finish(engine, engine->engine->readOutput(rgba, byte_count));
 }
 
+const char* halfshadow_program_proofs(HalfshadowEngine* engine) {
+  return engine->engine->programProofs();
+}
+
 void halfshadow_context_lost(HalfshadowEngine* engine) {
-  engine->engine->contextLost();
+  if (engine) engine->engine->contextLost();
+}
+
+HalfshadowError halfshadow_context_restored(HalfshadowEngine* engine) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
+  return finish(engine, engine->engine->contextRestored());
+}
+
+HalfshadowError halfshadow_trim(HalfshadowEngine* engine, HalfshadowTrim what) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
+  return finish(engine, engine->engine->trim(static_cast<halfshadow::Trim>(what)));
+}
+
+HalfshadowError halfshadow_set_memory_limit(HalfshadowEngine* engine, uint64_t bytes) {
+  if (engine == nullptr) return refuse(engine, kNoEngine);
+  engine->engine->setMemoryLimit(bytes);
+  return finish(engine, {});
 }
 
 }  // extern "C"

@@ -20,8 +20,12 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
           .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
+          .alphaMask = object.isCutOut() ? &object.alphaMask : nullptr,
+          .alphaCutoff = object.alphaCutoff,
+          .vertexColors = !mesh.mesh().colors.empty(),
           .boundsWorld = object.boundsWorld,
-          .closed = statistics.closed() && statistics.nonManifoldEdges == 0,
+          // Through holes its inside is seen.
+          .closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0,
           .solidity = object.casts ? mesh.solidity() : 1.0f,
           .mirrored = object.mirrored,
           .facetStream = mesh.gpu().hasFacetStream(),
@@ -56,7 +60,7 @@ namespace {
 Status update(gl::Context& context, const EngineObject& object, const ReceiverView& view, std::uint64_t key) {
   CutReceiver& cut = object.cutReceiver;
   if (cut.key == key) return {};
-  cut = {.key = key};
+  cut = {};
   auto mesh = scene::cutToView(
       object.mesh->mesh(),
       {.clipFromObject = view.screen.clipFromWorld * object.worldFromObject,
@@ -65,9 +69,13 @@ Status update(gl::Context& context, const EngineObject& object, const ReceiverVi
        .nearDistance = view.camera.nearDistance,
        .pixelAngle = 2.0 * std::tan(0.5 * view.camera.verticalFovRadians) / view.screen.height});
   // What lies outside the view is drawn as it is, to no effect.
-  if (!mesh || mesh->indices.empty()) return {};
-  auto gpu = techniques::GpuMesh::create(context, *mesh);
+  if (!mesh || mesh->indices.empty()) {
+    cut.key = key;
+    return {};
+  }
+  auto gpu = techniques::GpuMesh::create(context, *mesh, object.meshExtras());
   if (!gpu) return gpu.error();
+  cut.key = key;
   cut.needed = true;
   cut.mesh = std::move(*mesh);
   cut.gpu = std::move(gpu).value();
@@ -95,11 +103,13 @@ Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& s
                        std::span<const std::uint32_t> receivers, const std::vector<char>& castsForSome,
                        const ReceiverView& view) {
   list.resize(receivers.size());
+  std::vector<std::uint32_t> cutReceivers;
   for (std::size_t place = 0; place < receivers.size(); ++place) {
     const std::uint32_t index = receivers[place];
     const planner::PlannedObject& planned = scene.planned()[index];
     const bool casts = castsForSome[index] != 0;
     const std::uint64_t key = casts ? planned.revision : combineKeys(planned.revision, view.key);
+    if (!casts) cutReceivers.push_back(index);
     if (list.holds(place, planned.id, key)) continue;
     if (casts) {
       list.put(place, planned.id, key, drawItem(scene.object(index)));
@@ -108,6 +118,15 @@ Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& s
     auto item = cutItem(context, scene.object(index), view, key);
     if (!item) return item.error();
     list.put(place, planned.id, key, *item);
+  }
+  // Receivers that went out of view, or cast now, keep no part of themselves.
+  auto kept = cutReceivers.begin();
+  for (std::uint32_t index = 0; index < scene.objects().size(); ++index) {
+    if (kept != cutReceivers.end() && *kept == index) {
+      ++kept;
+    } else if (scene.object(index).cutReceiver.key != 0) {
+      scene.object(index).cutReceiver = {};
+    }
   }
   return {};
 }

@@ -19,6 +19,12 @@ framegraph::ClearValue clearValueOf(const RenderDesc& desc) {
   return clearColor(desc.clearColor[0], desc.clearColor[1], desc.clearColor[2], desc.clearColor[3]);
 }
 
+bool blamesDriver(ErrorCode code) {
+  return code == ErrorCode::outOfMemory || code == ErrorCode::driverFault ||
+         code == ErrorCode::shaderFailed || code == ErrorCode::capabilityMissing ||
+         code == ErrorCode::contextLost;
+}
+
 /// A colour image of the frame's size with a depth buffer of its own.
 std::vector<framegraph::Attachment> imageWithDepth(framegraph::Graph& graph, const std::string& name,
                                                    const TargetDesc& target, framegraph::Lifetime lifetime,
@@ -42,13 +48,12 @@ techniques::Technique* Engine::State::techniqueNamed(std::string_view id) const 
 }
 
 void Engine::State::declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets) {
-  const auto output = api::receiverOutput(frame.desc, frame.lights.size());
+  const auto output = api::receiverOutput(frame.desc, frame.shading);
   const bool shaded = output == techniques::ReceiverOutput::shaded;
   framegraph::PassDesc pass{.name = shaded ? "receivers, shaded" : "receivers, visibility",
                             .stage = framegraph::PassStage::scene,
                             .writes = std::move(targets)};
-  // An image of one value a pixel shows the first light only.
-  const std::size_t drawn = output == techniques::ReceiverOutput::visibility ? frame.lights.size() : 1;
+  const std::size_t drawn = api::drawnLights(frame.desc, frame.shading, frame.lights.size());
   for (std::size_t i = 0; i < drawn; ++i) {
     for (const auto resource : techniques::resourcesRead(frame.lights[i].shading))
       pass.reads.push_back(resource);
@@ -56,13 +61,8 @@ void Engine::State::declareVisibilityPass(Frame& frame, std::vector<framegraph::
   pass.execute = [&frame, drawn, shaded](framegraph::PassContext& passContext) {
     for (std::size_t i = 0; i < drawn; ++i) {
       const FrameLight& light = frame.lights[i];
-      techniques::ReceiverTarget receiverTarget{.depthIsComplete = i > 0};
-      if (drawn > 1) {
-        receiverTarget.colorMask.fill(false);
-        receiverTarget.colorMask[i] = true;
-      }
       techniques::drawReceivers(passContext, light.shading, light.programs, frame.view, frame.receivers,
-                                shaded ? &frame.shadingInputs : nullptr, receiverTarget);
+                                shaded ? &frame.shadingInputs : nullptr, api::receiverTarget(i, drawn));
     }
   };
   frame.graph.addPass(std::move(pass));
@@ -85,7 +85,8 @@ Status Engine::State::declareReceiverPasses(Frame& frame) {
   frame.color = targets.front().resource;
   frame.graph.markOutput(frame.color);
   for (const scene::AreaLight& light : lights) frame.shadingInputs.lights.push_back(&light);
-  if (desc.output != Output::shaded || lights.size() == 1) {
+  frame.shadingInputs.scale = techniques::shadingScale(lights.front(), frame.receivers);
+  if (desc.output != Output::shaded || frame.shading == api::Shading::together) {
     declareVisibilityPass(frame, std::move(targets));
     return {};
   }
@@ -111,13 +112,16 @@ Status Engine::State::declareReceiverPasses(Frame& frame) {
 
 Status Engine::State::checkFrame(const RenderDesc& desc, const scene::Camera& camera) const {
   if (context->lost())
-    return Error{ErrorCode::contextLost, "the context was lost; make a new engine on the new context"};
+    return Error{ErrorCode::contextLost, "the context was lost; call contextRestored on the new one"};
+  if (Status s = api::checkFrameDesc(desc); !s) return s;
   if (Status s = api::checkTarget(desc.target, context->capabilities().limits); !s) return s;
   if (Status s = scene::checkCamera(camera); !s) return s;
-  if (objects.empty())
-    return Error{ErrorCode::emptyScene, "the scene has no objects; add one before rendering"};
-  if (lights.empty())
-    return Error{ErrorCode::invalidLight, "no light is set; call setLights before rendering"};
+  for (std::size_t i = 0; i < techniques.size(); ++i) {
+    if (techniques[i].get() == technique && !techniqueReasons[i].empty()) {
+      return Error{ErrorCode::capabilityMissing,
+                   "technique " + technique->info().id + " needs " + techniqueReasons[i] + "; set another"};
+    }
+  }
   return {};
 }
 
@@ -130,12 +134,16 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
                 .height = desc.target.height,
                 .nearReach = scene::nearReach(camera, aspect)};
   lists.update(objects);
-  planner::FramePlan framePlan = planner.plan({.objects = lists.planned(),
-                                               .camera = &camera,
-                                               .aspectWidthOverHeight = aspect,
-                                               .lights = lights,
-                                               .lightRevisions = lightRevisions,
-                                               .lightNumbers = lightNumbers});
+  shared.beginFrame();
+  programs->beginFrame();
+  planner::FramePlan framePlan =
+      planner.plan({.objects = lists.planned(),
+                    .camera = desc.receivers == Receivers::seen ? &camera : nullptr,
+                    .aspectWidthOverHeight = aspect,
+                    .lights = lights,
+                    .lightRevisions = lightRevisions,
+                    .lightNumbers = lightNumbers,
+                    .receiversUnknown = desc.receivers == Receivers::unknown});
   frame.skips = std::move(framePlan.skips);
   // What shadows nothing is in no light's view: its pixels need none of the care that casters' own do.
   castsForSome.assign(lists.objects().size(), 0);
@@ -152,10 +160,13 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
   for (std::uint32_t number = 0; number < lightCaches.size(); ++number) {
     if (std::ranges::find(lightNumbers, number) == lightNumbers.end()) lightCaches[number] = {};
   }
+  if (lights.size() > 1) frame.shading = api::Shading::apart;
+  if (!proofFailure.empty()) frame.graph.noteSkipped("proof of programs", proofFailure);
   techniques::FramePasses passes{frame.view, frame.graph};
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (Status s = declareLight(frame, passes, i, framePlan); !s) return s;
   }
+  shared.endFrame();
   return desc.output == Output::lightsOnly ? Status{} : declareReceiverPasses(frame);
 }
 
@@ -163,12 +174,22 @@ Status Engine::State::renderFrame(const RenderDesc& desc) {
   const scene::Camera camera = api::toCamera(desc.camera);
   if (Status s = checkFrame(desc, camera); !s) return s;
   gl::HostStateGuard guard(*context, policy());
+  if (desc.target.kind == TargetDesc::Kind::host && desc.output != Output::lightsOnly) {
+    if (Status s = gl::checkHostFramebuffer(*context, desc.target.framebuffer); !s) return s;
+  }
   const gl::Counters before = encoder->counters();
+  gl::Counters proving;
   encoder->beginFrame();
-  auto frame = std::make_unique<Frame>();
-  frame->desc = desc;
-  frame->sceneRevision = sceneRevision();
-  if (Status s = declareFrame(*frame, camera); !s) return s;
+  std::unique_ptr<Frame> frame;
+  for (bool proven = false; !proven;) {
+    frame = std::make_unique<Frame>();
+    frame->desc = desc;
+    frame->sceneRevision = sceneRevision();
+    if (Status s = declareFrame(*frame, camera); !s) return s;
+    const Result<bool> draws = provePrograms(*frame, proving);
+    if (!draws) return draws.error();
+    proven = *draws;
+  }
   auto plan = framegraph::compile(frame->graph, [this](const framegraph::ResourceDesc& resource) {
     return executor->contentKeyOf(resource);
   });
@@ -180,7 +201,13 @@ Status Engine::State::renderFrame(const RenderDesc& desc) {
   if (!passReports) return passReports.error();
   if (Status s = context->checkErrors("a frame"); !s) return s;
   frame->passReports = std::move(passReports).value();
-  frame->counters = encoder->counters() - before;
+  frame->counters = encoder->counters() - before - proving;
+  // What objects sent since the last frame is this one's too.
+  const gl::Counters& now = encoder->counters();
+  frame->counters.textureUploadBytes = now.textureUploadBytes - uploadsTold.textureUploadBytes;
+  frame->counters.bufferUploadBytes = now.bufferUploadBytes - uploadsTold.bufferUploadBytes;
+  uploadsTold = now;
+  ++forwardBindings;
   frame->valid = true;
   lastFrame = std::move(frame);
   return {};
@@ -199,6 +226,7 @@ Result<bool> Engine::State::drawUnchanged() {
   frame.unchanged = true;
   frame.counters = {};
   frame.passReports.clear();
+  executor->repeatRun();
   if (!host) return true;
   gl::HostStateGuard guard(*context, policy());
   const gl::Counters before = encoder->counters();
@@ -211,24 +239,35 @@ Result<bool> Engine::State::drawUnchanged() {
   return true;
 }
 
-Outcome Engine::render(const RenderDesc& desc) {
-  State& state = *state_;
-  if (state.isUnchanged(desc)) {
-    const Result<bool> drawn = state.drawUnchanged();
+Outcome Engine::State::render(const RenderDesc& desc) {
+  forwardUnits.fill(0);
+  if (isUnchanged(desc)) {
+    const Result<bool> drawn = drawUnchanged();
     if (drawn && *drawn) return {};
-    state.lastFrame->valid = false;
+    lastFrame->valid = false;
     if (!drawn) {
-      state.lastFrame->lights.clear();
-      return state.fail(drawn.error());
+      lastFrame->lights.clear();
+      return fail(drawn.error());
     }
   }
-  const Status status = state.renderFrame(desc);
-  if (!status && state.lastFrame) {
-    // What the lights of the frame before read may have been replaced.
-    state.lastFrame->lights.clear();
-    state.lastFrame->valid = false;
+  Status status = renderFrame(desc);
+  for (int attempt = 0; !status && status.error().code == ErrorCode::outOfMemory; ++attempt) {
+    if (!freeForRetry(attempt)) break;
+    status = renderFrame(desc);
   }
-  return status ? Outcome{} : state.fail(status.error());
+  if (!status && lastFrame) {
+    // What the lights of the frame before read may have been replaced.
+    lastFrame->lights.clear();
+    lastFrame->valid = false;
+  }
+  if (!status && blamesDriver(status.error().code)) {
+    forgetDriverWork();
+  }
+  return status ? Outcome{} : fail(status.error());
+}
+
+Outcome Engine::render(const RenderDesc& desc) {
+  return state_->guarded([&] { return state_->render(desc); });
 }
 
 Outcome Engine::render(const RenderDesc& desc, FrameReport& report) {
@@ -238,34 +277,34 @@ Outcome Engine::render(const RenderDesc& desc, FrameReport& report) {
 }
 
 std::uint32_t Engine::outputTexture() const {
-  if (!state_->lastFrame) return 0;
+  if (!state_->lastFrame || state_->context->lost()) return 0;
   const gl::Texture* texture = state_->executor->texture(state_->lastFrame->graph, state_->lastFrame->color);
   return texture ? texture->name() : 0;
 }
 
 Outcome Engine::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
-  State& state = *state_;
-  if (state.context->lost())
-    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
-  gl::HostStateGuard guard(*state.context, state.policy());  // framebufferFor may make and bind one
+  return state_->guarded([&] { return state_->readOutput(rgba, byteCount); });
+}
+
+Outcome Engine::State::readOutput(std::uint8_t* rgba, std::size_t byteCount) {
+  if (context->lost()) return fail({ErrorCode::contextLost, "the context was lost; call contextRestored"});
+  gl::HostStateGuard guard(*context, policy());  // framebufferFor may make and bind one
   const gl::Framebuffer* framebuffer =
-      state.lastFrame ? state.executor->framebufferFor(state.lastFrame->graph, state.lastFrame->color)
-                      : nullptr;
-  if (framebuffer == nullptr) {
-    return state.fail({ErrorCode::invalidArgument, "no frame was rendered with TargetDesc::Kind::engine"});
-  }
-  const TargetDesc& target = state.lastFrame->desc.target;
+      lastFrame ? executor->framebufferFor(lastFrame->graph, lastFrame->color) : nullptr;
+  if (Status s = context->checkErrors("reading the output"); !s) return fail(s.error());
+  if (framebuffer == nullptr)
+    return fail({ErrorCode::invalidArgument, "no frame was rendered with TargetDesc::Kind::engine"});
+  const TargetDesc& target = lastFrame->desc.target;
   const auto width = static_cast<std::size_t>(target.width), height = static_cast<std::size_t>(target.height);
-  if (rgba == nullptr || byteCount < width * height * 4) {
-    return state.fail({ErrorCode::invalidArgument, "readOutput needs width x height x 4 bytes"});
-  }
-  state.encoder->beginFrame();
-  state.encoder->readPixels(*framebuffer, {0, 0, target.width, target.height}, rgba);
+  if (rgba == nullptr || byteCount < width * height * 4)
+    return fail({ErrorCode::invalidArgument, "readOutput needs width x height x 4 bytes"});
+  encoder->beginFrame();
+  encoder->readPixels(*framebuffer, {0, 0, target.width, target.height}, rgba);
   for (std::size_t y = 0; y < height / 2; ++y) {
     std::swap_ranges(rgba + y * width * 4, rgba + (y + 1) * width * 4, rgba + (height - 1 - y) * width * 4);
   }
-  const Status status = state.context->checkErrors("reading the output");
-  return status ? Outcome{} : state.fail(status.error());
+  const Status status = context->checkErrors("reading the output");
+  return status ? Outcome{} : fail(status.error());
 }
 
 }  // namespace halfshadow

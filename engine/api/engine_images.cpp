@@ -55,13 +55,10 @@ std::vector<ImageRecord> Engine::State::images() const {
   return records;
 }
 
-std::size_t Engine::imageCount() const {
-  return state_->images().size();
-}
-
-ImageRecord Engine::image(std::size_t index) const {
-  const std::vector<ImageRecord> records = state_->images();
-  return index < records.size() ? records[index] : ImageRecord{};
+std::size_t Engine::images(ImageRecord* records, std::size_t capacity) const {
+  const std::vector<ImageRecord> all = state_->images();
+  if (records != nullptr) std::ranges::copy_n(all.begin(), std::min(all.size(), capacity), records);
+  return all.size();
 }
 
 }  // namespace halfshadow

@@ -35,6 +35,7 @@ std::size_t Engine::capabilityCount() const {
 }
 
 CapabilityRecord Engine::capability(std::size_t index) const {
+  if (index >= device::kCapabilityCount) return {};
   const auto which = static_cast<device::Capability>(index);
   const device::CapabilityState& state = state_->context->capabilities().state(which);
   return {.name = device::capabilityName(which).data(),
@@ -47,7 +48,7 @@ std::size_t Engine::extensionCount() const {
   return state_->context->capabilities().extensions.size();
 }
 const char* Engine::extension(std::size_t index) const {
-  return state_->context->capabilities().extensions[index].c_str();
+  return index < extensionCount() ? state_->context->capabilities().extensions[index].c_str() : "";
 }
 
 std::size_t Engine::techniqueCount() const {
@@ -55,6 +56,7 @@ std::size_t Engine::techniqueCount() const {
 }
 
 TechniqueRecord Engine::technique(std::size_t index) const {
+  if (index >= techniqueCount()) return {};
   const techniques::TechniqueInfo& info = state_->techniques[index]->info();
   const std::string& reason = state_->techniqueReasons[index];
   return {.id = info.id.c_str(),
@@ -71,9 +73,18 @@ std::size_t Engine::settingCount() const {
 }
 
 SettingRecord Engine::setting(std::size_t index) const {
-  const techniques::SettingInfo& info = state_->settings->declared()[index];
-  std::vector<std::string>& texts = state_->settingTexts;
-  const std::size_t count = settingCount();
+  if (index >= settingCount()) return {};
+  try {
+    return state_->settingRecord(index);
+  } catch (...) {
+    return {};
+  }
+}
+
+SettingRecord Engine::State::settingRecord(std::size_t index) {
+  const techniques::SettingInfo& info = settings->declared()[index];
+  std::vector<std::string>& texts = settingTexts;
+  const std::size_t count = settings->declared().size();
   if (texts.size() != 2 * count) texts.resize(2 * count);
   std::string& allowed = texts[2 * index];
   std::string& value = texts[2 * index + 1];
@@ -85,7 +96,7 @@ SettingRecord Engine::setting(std::size_t index) const {
     std::snprintf(range, sizeof range, "%g to %g", info.low, info.high);
     allowed = range;
   }
-  value = state_->settings->text(info.key);
+  value = settings->text(info.key);
   const char* type = info.type == techniques::SettingType::choice    ? "choice"
                      : info.type == techniques::SettingType::integer ? "integer"
                                                                      : "real";

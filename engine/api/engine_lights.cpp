@@ -21,7 +21,16 @@ bool castsAlike(const scene::AreaLight& a, const scene::AreaLight& b) {
 }  // namespace
 
 void Engine::State::setLights(std::vector<scene::AreaLight> checked) {
-  if (checked == lights) return;
+  const bool none = checked.empty();
+  if (none) checked.push_back({.intensity = 0.0f});
+  if (checked == lights && hasLights == !none) return;
+  if (hasLights == none) {
+    // The dark light that stands for none is nobody's light of before or after.
+    lights.clear();
+    lightRevisions.clear();
+    lightNumbers.clear();
+  }
+  hasLights = !none;
   std::vector<std::uint32_t> numbers(checked.size(), kNoNumber);
   std::vector<std::uint64_t> revisions(checked.size(), 0);
   std::vector<bool> known(lights.size(), false);
@@ -78,6 +87,15 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   cache.reachKey = 0;
 }
 
+void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string& id,
+                              std::span<const techniques::DrawItem> casters) const {
+  const auto cut = std::ranges::count_if(
+      casters, [](const techniques::DrawItem& item) { return item.alphaMask != nullptr; });
+  if (cut == 0) return;
+  frame.graph.noteSkipped(nameOf(light) + " holes of " + std::to_string(cut) + " casters",
+                          id + " takes casters by their outlines: what alpha cuts out of them casts too");
+}
+
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                                    const planner::FramePlan& framePlan) {
   const planner::LightPlan& plan = framePlan.lights[index];
@@ -86,11 +104,15 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   fitLight(index, plan);
   api::updateItems(cache.casters, lists, plan.casters, api::ItemRole::caster);
   techniques::Technique* used = technique;
-  if (!plan.active || cache.fit.empty || plan.casters.empty()) {
+  const bool shadowsNothing = !plan.active || cache.fit.empty || plan.casters.empty();
+  if (shadowsNothing) {
     frame.graph.noteSkipped(nameOf(index) + " shadows",
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
   }
+  auto choice = choiceFor(frame, index, *used);
+  if (!choice) return choice.error();
+  used = choice->technique;
   // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
   shadowless.clear();
   auto caster = plan.casters.begin();  // in the order of objects
@@ -101,17 +123,19 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   }
   api::updateItems(cache.shadowlessReceivers, lists, shadowless, api::ItemRole::shadowless);
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
-  const double receiverFarDistance = receiverReach(cache, sceneKey);
+  double receiverFarDistance = receiverReach(cache, sceneKey);
+  if (frame.desc.receivers == Receivers::unknown)
+    receiverFarDistance = std::max(receiverFarDistance, 4.0 * cache.fit.farthestCaster);
   std::string splitReason;
   const planner::SubLights* subLights = cache.split.update({.light = cache.light,
                                                             .fit = cache.fit,
                                                             .casters = cache.casterShapes.values(),
                                                             .receiverFarDistance = receiverFarDistance,
                                                             .contentKey = plan.contentKey},
-                                                           *used, *settings, splitReason);
+                                                           *used, *choice->settings, splitReason);
   if (!splitReason.empty()) frame.graph.noteSkipped(nameOf(index) + " sub-lights", splitReason);
   const techniques::LightScene scene{.capabilities = context->capabilities(),
-                                     .settings = *settings,
+                                     .settings = *choice->settings,
                                      .screen = frame.view,
                                      .channel = static_cast<int>(index),
                                      .name = nameOf(index),
@@ -134,19 +158,28 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
                                               : "; " + standIn->id + " takes the light";
     frame.graph.noteSkipped(nameOf(index) + " " + used->info().id, standIn->reason + outcome);
-    if (!hostEvaluates) used = techniqueNamed(standIn->id);
+    if (!hostEvaluates) {
+      choice = choiceFor(frame, index, *techniqueNamed(standIn->id));
+      if (!choice) return choice.error();
+      used = choice->technique;
+    }
   }
+  if (choice->settings->choice("shading") == "apart") frame.shading = api::Shading::apart;
   auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
   if (!prepared) return prepared.error();
+  target.technique = *prepared;
+  if ((*prepared)->info().takesOutlines) noteHoles(frame, index, (*prepared)->info().id, scene.casters);
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
+  target.allLit = shadowsNothing;
+  chooseForward(target, cache);
   if (hostEvaluates) {
     for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
     return {};
   }
   auto linked = techniques::receiverPrograms(*programs, target.shading,
-                                             api::receiverOutput(frame.desc, lights.size()), frame.receivers);
+                                             api::receiverOutput(frame.desc, frame.shading), frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
@@ -190,8 +223,10 @@ Result<techniques::Technique*> Engine::State::preparedTechnique(Frame& frame, st
                .why = planned.error().message};
   }
   frame.graph.noteSkipped(nameOf(index) + " " + asked.info().id, refusal.why + "; pcss-mip takes the light");
-  if (Status s = prepareLight(cache, *instead, scene); !s) return s.error();
-  return instead;
+  const auto choice = choiceFor(frame, index, *instead);
+  if (!choice) return choice.error();
+  if (Status s = prepareLight(cache, *choice->technique, scene); !s) return s.error();
+  return choice->technique;
 }
 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,

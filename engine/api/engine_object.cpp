@@ -6,6 +6,23 @@
 
 namespace halfshadow {
 
+Status EngineObject::uploadTextures(gl::Context& context) {
+  auto colors = api::textureOf(context, baseColorImage);
+  if (!colors) return colors.error();
+  auto mask = api::textureOf(context, alphaMaskImage);
+  if (!mask) return mask.error();
+  baseColorTexture = std::move(colors).value();
+  alphaMask = std::move(mask).value();
+  return {};
+}
+
+void EngineObject::forgetUploads() {
+  mesh->forgetUpload();
+  baseColorTexture = {};
+  alphaMask = {};
+  cutReceiver = {};
+}
+
 void EngineObject::place(const glm::dmat4& worldFromHostNow) {
   worldFromHost = worldFromHostNow;
   worldFromObject = glm::translate(worldFromHost, mesh->recenteredBy());

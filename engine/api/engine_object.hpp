@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "api/object_mesh.hpp"
+#include "api/object_textures.hpp"
 #include "gl/objects.hpp"
 #include "planner/light_fit.hpp"
 
@@ -30,10 +31,21 @@ struct EngineObject {
   bool mirrored = false;
   bool casts = true, receives = true;
   glm::vec4 baseColor{1.0f};
+  /// What the host gave, to be uploaded again on another context.
+  api::SurfaceImage baseColorImage, alphaMaskImage;
   gl::Texture baseColorTexture;
+  gl::Texture alphaMask;     ///< of what alpha cuts holes into; see techniques::DrawItem
+  float alphaCutoff = 0.0f;  ///< of mask times vertex colour
   std::uint64_t revision = 0;
   mutable CutReceiver cutReceiver;  ///< of the last frame
 
+  /// Of the images that there are. Errors: outOfMemory, contextLost.
+  Status uploadTextures(gl::Context& context);
+  void forgetUploads();  ///< the context is gone
+  bool isCutOut() const { return !alphaMaskImage.bytes.empty(); }
+  techniques::MeshExtras meshExtras() const {
+    return isCutOut() ? techniques::MeshExtras::alpha : techniques::MeshExtras::none;
+  }
   /// Sets worldFromObject and what follows from it and from the mesh.
   void place(const glm::dmat4& worldFromHostNow);
   /// For fits; its points are found once for a mesh, and placed when it has moved.

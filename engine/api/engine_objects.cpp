@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "api/engine_state.hpp"
+#include "api/object_textures.hpp"
 
 namespace halfshadow {
 namespace {
+constexpr Outcome kNoObject{ErrorCode::invalidArgument, "no object has this id"};
+
 Result<glm::dmat4> checkedTransform(const double matrix[16]) {
   const glm::dmat4 transform = glm::make_mat4(matrix);
   double sum = 0.0;
@@ -26,64 +30,43 @@ Result<glm::dmat4> checkedTransform(const double matrix[16]) {
   return transform;
 }
 
-Result<gl::Texture> baseColorTexture(gl::Context& context, const ObjectDesc& desc) {
-  const int channels = desc.baseColorChannels;
-  if (desc.baseColorWidth <= 0 || desc.baseColorHeight <= 0 || (channels != 3 && channels != 4)) {
-    return Error{ErrorCode::invalidArgument, "a base colour image needs a positive size and 3 or 4 channels"};
-  }
-  const auto width = static_cast<std::size_t>(desc.baseColorWidth),
-             height = static_cast<std::size_t>(desc.baseColorHeight);
-  // Rows stay as they are, since texture coordinates count from the top left; alpha is dropped: shadows of
-  // cut-out materials are not supported.
-  std::vector<std::uint8_t> rgba(width * height * 4);
-  for (std::size_t y = 0; y < height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      const std::uint8_t* source =
-          desc.baseColorPixels + (y * width + x) * static_cast<std::size_t>(channels);
-      std::uint8_t* target = rgba.data() + (y * width + x) * 4;
-      target[0] = source[0], target[1] = source[1], target[2] = source[2], target[3] = 255;
-    }
-  }
-  const auto powerOfTwo = [](std::size_t n) { return (n & (n - 1)) == 0; };
-  const bool mips = powerOfTwo(width) && powerOfTwo(height);  // ES 2.0: others have no mips and no repeat
-  auto texture =
-      gl::Texture::create(context,
-                          {.width = desc.baseColorWidth,
-                           .height = desc.baseColorHeight,
-                           .filter = mips ? gl::TextureFilter::linearMipLinear : gl::TextureFilter::linear,
-                           .wrap = mips ? gl::TextureWrap::repeat : gl::TextureWrap::clampToEdge,
-                           .mipmapped = mips},
-                          rgba.data());
-  if (texture && mips) texture->generateMipmaps(context);
-  return texture;
+Status addImages(gl::Context& context, const ObjectDesc& desc, EngineObject& object) {
+  const int limit = context.capabilities().limits.textureSize;
+  object.baseColorImage = api::baseColorImage(limit, desc);
+  object.alphaMaskImage = api::alphaMaskImage(limit, desc);
+  // The mask's texels stand for image alone: what else multiplies alpha divides the cutoff.
+  object.alphaCutoff = desc.alphaCutoff / std::max(desc.baseColor[3], 1e-6f);
+  return object.uploadTextures(context);
 }
 }  // namespace
 
 Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
-  State& state = *state_;
   id = 0;
+  return state_->guarded([&] { return state_->addObject(desc, id); });
+}
+
+Outcome Engine::State::addObject(const ObjectDesc& desc, ObjectId& id) {
+  State& state = *this;
   if (state.context->lost())
-    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+    return state.fail({ErrorCode::contextLost, "the context was lost; call contextRestored on a new one"});
   auto transform = checkedTransform(desc.worldFromObject);
   if (!transform) return state.fail(transform.error());
+  if (Status status = api::checkSurface(desc); !status) return state.fail(status.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   EngineObject object;
-  auto mesh = state.meshes.find(*state.context, desc.mesh);
+  if (Status status = addImages(*state.context, desc, object); !status) return state.fail(status.error());
+  auto mesh = state.meshes.find(*state.context, desc.mesh, object.meshExtras());
   if (!mesh) return state.fail(mesh.error());
   object.mesh = std::move(mesh).value();
-  if (desc.baseColorPixels) {
-    auto texture = baseColorTexture(*state.context, desc);
-    if (!texture) return state.fail(texture.error());
-    object.baseColorTexture = std::move(texture).value();
-  }
+  if (Status s = state.context->checkErrors("adding an object"); !s) return state.fail(s.error());
   object.place(*transform);
   object.casts = desc.casts;
   object.receives = desc.receives;
   object.baseColor = glm::make_vec4(desc.baseColor);
   object.revision = state.nextRevision++;
+  object.id = state.nextId;
+  state.objects.emplace(state.nextId, std::move(object));
   id = state.nextId++;
-  object.id = id;
-  state.objects.emplace(id, std::move(object));
   state.lists.listChanged();
   ++state.changes;
   return {};
@@ -91,22 +74,30 @@ Outcome Engine::addObject(const ObjectDesc& desc, ObjectId& id) {
 
 Outcome Engine::setTransform(ObjectId id, const double worldFromObject[16]) {
   State& state = *state_;
-  const auto found = state.objects.find(id);
-  if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
-  auto transform = checkedTransform(worldFromObject);
-  if (!transform) return state.fail(transform.error());
-  if (found->second.worldFromHost == *transform) return {};
-  found->second.place(*transform);
-  state.changed(found->second);
-  return {};
+  return state.guarded([&]() -> Outcome {
+    const auto found = state.objects.find(id);
+    if (found == state.objects.end()) return kNoObject;
+    if (worldFromObject == nullptr)
+      return {ErrorCode::invalidArgument, "setTransform needs a matrix of 16 numbers"};
+    auto transform = checkedTransform(worldFromObject);
+    if (!transform) return state.fail(transform.error());
+    if (found->second.worldFromHost == *transform) return {};
+    state.changed(found->second);
+    found->second.place(*transform);
+    return {};
+  });
 }
 
 Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
-  State& state = *state_;
+  return state_->guarded([&] { return state_->setVertices(id, desc); });
+}
+
+Outcome Engine::State::setVertices(ObjectId id, const MeshDesc& desc) {
+  State& state = *this;
   const auto found = state.objects.find(id);
-  if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
+  if (found == state.objects.end()) return kNoObject;
   if (state.context->lost())
-    return state.fail({ErrorCode::contextLost, "the context was lost; make a new engine"});
+    return state.fail({ErrorCode::contextLost, "the context was lost; call contextRestored on a new one"});
   EngineObject& object = found->second;
   if (desc.vertexCount != object.mesh->mesh().positions.size()) {
     return state.fail(
@@ -125,28 +116,31 @@ Outcome Engine::setVertices(ObjectId id, const MeshDesc& desc) {
     }
   }
   gl::HostStateGuard guard(*state.context, state.policy());
-  if (object.mesh.use_count() > 1) {
-    auto own = object.mesh->copy(*state.context);
+  std::shared_ptr<api::ObjectMesh> mesh = object.mesh;
+  if (mesh.use_count() > 2) {
+    auto own = mesh->copy(*state.context);
     if (!own) return state.fail(own.error());
-    object.mesh = std::move(own).value();
+    mesh = std::move(own).value();
   }
-  if (Status s = object.mesh->setVertices(*state.context, std::move(positions), desc.normals); !s)
+  if (Status s = mesh->setVertices(*state.context, std::move(positions), desc.normals); !s)
     return state.fail(s.error());
-  object.place(object.worldFromHost);
   state.changed(object);
+  object.mesh = std::move(mesh);
+  object.place(object.worldFromHost);
   return {};
 }
 
 Outcome Engine::removeObject(ObjectId id) {
   State& state = *state_;
-  const auto found = state.objects.find(id);
-  if (found == state.objects.end()) return state.fail({ErrorCode::invalidArgument, "no object has this id"});
-  gl::HostStateGuard guard(*state.context,
-                           state.context->lost() ? gl::HostStatePolicy::leaveDirty : state.policy());
-  state.objects.erase(found);
-  state.lists.listChanged();
-  ++state.changes;
-  return {};
+  return state.guarded([&]() -> Outcome {
+    const auto found = state.objects.find(id);
+    if (found == state.objects.end()) return kNoObject;
+    gl::HostStateGuard guard(*state.context, state.policy());
+    state.objects.erase(found);
+    state.lists.listChanged();
+    ++state.changes;
+    return {};
+  });
 }
 
 }  // namespace halfshadow

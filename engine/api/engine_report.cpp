@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 #include <algorithm>
-#include <set>
 
 #include "api/engine_state.hpp"
 
@@ -69,19 +68,16 @@ PassRecord recordOf(const framegraph::PassDesc& pass, const framegraph::PlannedP
 }
 }  // namespace
 
-std::uint64_t Engine::State::memoryBytes() const {
-  std::uint64_t bytes = executor->memoryBytes();
-  std::set<const api::ObjectMesh*> counted;
-  for (const auto& [id, object] : objects) {
-    if (counted.insert(object.mesh.get()).second) bytes += object.mesh->gpu().memoryBytes();
-    bytes += object.cutReceiver.gpu.memoryBytes() +
-             (object.baseColorTexture ? object.baseColorTexture.byteCount() : 0);
+FrameReport Engine::report() {
+  try {
+    return state_->frameReport();
+  } catch (...) {
+    return {};
   }
-  return bytes;
 }
 
-FrameReport Engine::report() {
-  State& state = *state_;
+FrameReport Engine::State::frameReport() {
+  State& state = *this;
   if (!state.lastFrame || !state.lastFrame->valid) return {};
   const Frame& frame = *state.lastFrame;
   ReportStorage& storage = state.report;
@@ -92,10 +88,10 @@ FrameReport Engine::report() {
   const bool canDiscard = state.context->capabilities().has(device::Capability::discard);
   storage.passes.clear();
   storage.targets.clear();
-  for (const framegraph::PassReport& report : frame.passReports) {
-    const framegraph::PlannedPass& planned = frame.plan.passes[report.planned];
+  for (const framegraph::PassReport& drawn : frame.passReports) {
+    const framegraph::PlannedPass& planned = frame.plan.passes[drawn.planned];
     storage.targets.push_back(framegraph::targetText(frame.graph, planned));
-    storage.passes.push_back(recordOf(frame.graph.passes()[planned.pass], planned, report, canDiscard));
+    storage.passes.push_back(recordOf(frame.graph.passes()[planned.pass], planned, drawn, canDiscard));
   }
   for (std::size_t i = 0; i < storage.passes.size(); ++i)
     storage.passes[i].target = storage.targets[i].c_str();

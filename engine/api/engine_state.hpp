@@ -7,19 +7,25 @@
 #include <array>
 #include <map>
 #include <memory>
+#include <new>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "api/engine_object.hpp"
+#include "api/frame_desc.hpp"
 #include "api/item_list.hpp"
+#include "api/light_fallbacks.hpp"
 #include "api/light_split.hpp"
+#include "api/refusal.hpp"
 #include "api/scene_lists.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
 #include "gl/host_state.hpp"
 #include "gl/program.hpp"
+#include "gl/program_proofs.hpp"
 #include "halfshadow/halfshadow.hpp"
 #include "planner/frame_planner.hpp"
 #include "techniques/execution/light_passes.hpp"
@@ -27,16 +33,6 @@
 #include "techniques/registry/registry.hpp"
 
 namespace halfshadow {
-
-namespace api {
-/// Casters that a technique could not plan: they are not tried again in every frame.
-struct Refusal {
-  const techniques::Technique* technique = nullptr;
-  std::vector<std::uint32_t> casters;  ///< by index in the scene's lists
-  std::uint64_t settings = 0;          ///< their revision
-  std::string why;
-};
-}  // namespace api
 
 /// What is kept of a light between frames.
 struct LightCache {
@@ -52,13 +48,19 @@ struct LightCache {
   double receiverFarDistance = 0.0;
   api::LightSplit split;
   api::Refusal refusal;
+  api::LightFallbacks fallbacks;
+  techniques::ForwardVariant forward;  ///< of the last frame in which it shadowed something
+  std::uint64_t forwardOf = 0;         ///< of the technique and settings that this was with; 0 = none
   const techniques::Technique* passesOf = nullptr;
   std::unique_ptr<techniques::LightPasses> passes;
 };
 
 struct FrameLight {
+  techniques::Technique* technique = nullptr;
   techniques::ReceiverShading shading;
   techniques::ReceiverProgramSet programs;
+  techniques::ForwardVariant forward;
+  bool allLit = false;  ///< it shadows nothing: a program made from another text is right too
 };
 
 /// Lives from declaration to the next frame; the lists that it draws are the engine's.
@@ -67,10 +69,11 @@ struct Frame {
   techniques::View view;
   std::span<const techniques::DrawItem> receivers;
   std::vector<FrameLight> lights;
+  api::Shading shading = api::Shading::together;
   framegraph::Graph graph;
   framegraph::ResourceId color;
   techniques::ShadingInputs shadingInputs;    ///< Output::shaded
-  techniques::ReceiverShading screenShading;  ///< Output::shaded with several lights
+  techniques::ReceiverShading screenShading;  ///< Output::shaded apart
   techniques::ReceiverProgramSet screenPrograms;
 
   // What became of it.
@@ -96,6 +99,8 @@ struct Engine::State {
   std::unique_ptr<gl::Context> context;
   HostState hostState = HostState::restore;
   std::unique_ptr<gl::ProgramCache> programs;
+  gl::ProgramProofs proofs;              ///< of `programs`
+  std::string proofsText, proofFailure;  ///< the latter: why some programs are unproven
   std::unique_ptr<gl::Encoder> encoder;
   std::unique_ptr<framegraph::Executor> executor;
   techniques::SharedTextures shared;
@@ -108,7 +113,9 @@ struct Engine::State {
   api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;
   std::uint64_t nextRevision = 1;
+  /// Of the host's; without one a dark light stands here, which shadows nothing.
   std::vector<scene::AreaLight> lights;
+  bool hasLights = false;
   std::vector<std::uint64_t> lightRevisions;
   /// By which lights are named and known again, whatever their places: below kMaxLights, each once.
   std::vector<std::uint32_t> lightNumbers;
@@ -117,13 +124,32 @@ struct Engine::State {
   api::ItemList receivers;
   std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
   std::vector<std::uint32_t> shadowless;
+  gl::Counters uploadsTold;   ///< at the end of the last frame
   std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;
   std::unique_ptr<Frame> lastFrame;  ///< its graph names the output
 
+  // Hosts that draw receivers (engine_forward.cpp).
   techniques::ForwardTexts forwardTexts;
+  std::map<std::uint32_t, gl::Program> forwardPrograms;  ///< looked up, by name
+  techniques::ForwardUnits forwardUnits{};               ///< since the last render()
+  std::uint64_t forwardBindings = 0;                     ///< counts frames that were drawn
+  /// With the technique's text, or where the light shadows nothing the one that it had before.
+  void chooseForward(FrameLight& target, LightCache& cache) const;
+  /// Errors: those of Engine::bindForward about the program.
+  Result<gl::Program*> forwardProgram(std::uint32_t name, const FrameLight& light);
 
+  // What the context was made with, for the next one.
+  void* (*getProcAddress)(const char* name, void* user) = nullptr;
+  void* getProcAddressUser = nullptr;
+  gl::ContextOptions contextOptions;
+  std::string shaderFolder;
+
+  /// Of the context, with its programs, passes and meshes (engine_create.cpp).
+  static Engine* create(const EngineDesc& desc, Outcome& outcome);
+  Status openContext();
+  Status uploadObjects();
   Outcome fail(const Error& error);
   Status checkForward(std::size_t light) const;
   gl::HostStatePolicy policy() const;
@@ -132,7 +158,13 @@ struct Engine::State {
   std::uint64_t sceneRevision() const { return changes + settings->revision(); }
   LightCache& cacheOf(std::size_t light) { return lightCaches[lightNumbers[light]]; }
   std::string nameOf(std::size_t light) const { return "light " + std::to_string(lightNumbers[light]); }
+  Outcome setTechnique(const char* id);
+  Outcome setLights(const LightDesc* descs, std::size_t count);
   void setLights(std::vector<scene::AreaLight> checked);
+  SettingRecord settingRecord(std::size_t index);
+  FrameReport frameReport();
+  Outcome addObject(const ObjectDesc& desc, ObjectId& id);
+  Outcome setVertices(ObjectId id, const MeshDesc& desc);
   /// Its mesh or its place is another.
   void changed(EngineObject& object) {
     object.revision = nextRevision++;
@@ -144,6 +176,9 @@ struct Engine::State {
   void fitLight(std::size_t light, const planner::LightPlan& plan);
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                       const planner::FramePlan& framePlan);
+  /// Says which casters the technique takes for whole though alpha cuts holes into them.
+  void noteHoles(Frame& frame, std::size_t light, const std::string& technique,
+                 std::span<const techniques::DrawItem> casters) const;
   /// Of the receivers in the light's fit; found again when the scene changed.
   double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
   /// The technique, or the one that takes its place where it cannot plan the scene; passes are prepared.
@@ -155,6 +190,14 @@ struct Engine::State {
                       const techniques::LightScene& scene);
   /// Uploads and declares the light's prepared passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index);
+  // Programs that draw nothing (engine_proofs.cpp).
+  /// What the light is drawn with; gives reasons where that is not `asked`. Errors: capabilityMissing.
+  Result<api::LightFallbacks::Choice> choiceFor(Frame& frame, std::size_t light,
+                                                techniques::Technique& asked);
+  /// Proves every program that the declared frame draws with; false when the frame must be declared again,
+  /// with what takes the place of those that draw nothing. `spent` is set to what proving cost. Errors:
+  /// capabilityMissing.
+  Result<bool> provePrograms(const Frame& frame, gl::Counters& spent);
   // The frame (engine_frame.cpp).
   void declareVisibilityPass(Frame& frame, std::vector<framegraph::Attachment> targets);
   Status declareReceiverPasses(Frame& frame);
@@ -165,8 +208,39 @@ struct Engine::State {
   /// Draws of an unchanged frame what only the host could have kept. False when that takes a whole frame.
   Result<bool> drawUnchanged();
   Status renderFrame(const RenderDesc& desc);
-  std::uint64_t memoryBytes() const;
   std::vector<ImageRecord> images() const;  ///< of the last frame (engine_images.cpp)
+  Outcome render(const RenderDesc& desc);
+  Outcome readOutput(std::uint8_t* rgba, std::size_t byteCount);
+  std::uint64_t memoryBytes() const { return context->storedBytes(); }
+
+  // What can be made anew (engine_memory.cpp).
+  /// Forgets all but objects, lights and settings.
+  void forgetDerived() noexcept;
+  void forgetDriverWork() noexcept;
+  /// Frees what a second attempt can do without; false when nothing is left to free.
+  bool freeForRetry(int attempt) noexcept;
+  /// The public interface throws nothing: a call without memory fails and leaves a usable engine.
+  template <typename Call>
+  Outcome guarded(Call&& call) noexcept;
 };
+
+template <typename Call>
+Outcome Engine::State::guarded(Call&& call) noexcept {
+  try {
+    const bool wasLost = context->lost();
+    const Outcome outcome = call();
+    if (!wasLost && context->lost()) {
+      return {ErrorCode::contextLost,
+              "the context was lost during the call; make a new one current and call contextRestored"};
+    }
+    return outcome;
+  } catch (const std::bad_alloc&) {
+    forgetDerived();
+    return {ErrorCode::outOfMemory, "the system has no memory left for this call; free some and call again"};
+  } catch (...) {
+    forgetDerived();
+    return {ErrorCode::internal, "an unexpected exception inside the engine; please report it"};
+  }
+}
 
 }  // namespace halfshadow

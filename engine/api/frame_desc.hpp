@@ -13,10 +13,19 @@
 namespace halfshadow::api {
 
 scene::Camera toCamera(const CameraDesc& desc);
+/// Enums and numbers. Errors: invalidArgument.
+Status checkFrameDesc(const RenderDesc& desc);
 /// Errors: invalidArgument.
 Status checkTarget(const TargetDesc& target, const device::Limits& limits);
-/// What the pass that evaluates visibility writes: with several lights, shading reads it from the screen.
-techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, std::size_t lightCount);
+/// Whether shading reads visibilities from the screen: of several lights, or of one where a program that does
+/// both is too large.
+enum class Shading { together, apart };
+/// What the pass that evaluates visibility writes.
+techniques::ReceiverOutput receiverOutput(const RenderDesc& desc, Shading shading);
+/// Lights whose visibility that pass evaluates: an image of one value a pixel shows the first alone.
+std::size_t drawnLights(const RenderDesc& desc, Shading shading, std::size_t lightCount);
+/// How the receivers of one of so many lights reach the pass's target.
+techniques::ReceiverTarget receiverTarget(std::size_t light, std::size_t drawn);
 /// Asks for the same picture, in the same place; timing apart.
 bool sameFrame(const RenderDesc& a, const RenderDesc& b);
 

@@ -11,20 +11,23 @@
 
 namespace halfshadow::api {
 
-Result<std::shared_ptr<ObjectMesh>> ObjectMesh::create(gl::Context& context, const MeshDesc& desc) {
+Result<std::shared_ptr<ObjectMesh>> ObjectMesh::create(gl::Context& context, const MeshDesc& desc,
+                                                       techniques::MeshExtras extras) {
   auto checked = scene::buildMesh({.positions = desc.positions,
                                    .positionStrideBytes = desc.positionStrideBytes,
                                    .vertexCount = desc.vertexCount,
                                    .indices = desc.indices,
                                    .indexCount = desc.indexCount,
                                    .normals = desc.normals,
-                                   .texcoords = desc.texcoords});
+                                   .texcoords = desc.texcoords,
+                                   .colors = desc.colors});
   if (!checked) return checked.error();
   auto made = std::make_shared<ObjectMesh>();
   made->mesh_ = std::move(*checked);
   made->recenteredBy_ = scene::recenter(made->mesh_);
   made->bounds_ = scene::boundsOf(made->mesh_);
-  auto gpu = techniques::GpuMesh::create(context, made->mesh_);
+  made->extras_ = extras;
+  auto gpu = techniques::GpuMesh::create(context, made->mesh_, extras);
   if (!gpu) return gpu.error();
   made->gpu_ = std::move(gpu).value();
   return made;
@@ -36,32 +39,53 @@ Result<std::shared_ptr<ObjectMesh>> ObjectMesh::copy(gl::Context& context) const
   made->recenteredBy_ = recenteredBy_;
   made->bounds_ = bounds_;
   made->solidity_ = solidity();
-  auto gpu = techniques::GpuMesh::create(context, mesh_);
+  made->extras_ = extras_;
+  auto gpu = techniques::GpuMesh::create(context, mesh_, extras_);
   if (!gpu) return gpu.error();
   made->gpu_ = std::move(gpu).value();
   return made;
 }
 
+Status ObjectMesh::upload(gl::Context& context) {
+  auto gpu = techniques::GpuMesh::create(context, mesh_, extras_);
+  if (!gpu) return gpu.error();
+  gpu_ = std::move(gpu).value();
+  return {};
+}
+
 Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals) {
   (void)solidity();  // of the first positions
+  scene::TriangleMesh changed = mesh_;
+  changed.positions = std::move(positions);
+  const glm::dvec3 recenteredBy = scene::recenter(changed);
+  if (normals != nullptr) {
+    for (std::size_t i = 0; i < changed.normals.size(); ++i)
+      changed.normals[i] = glm::make_vec3(normals + 3 * i);
+  }
+  // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
+  const bool turned = scene::turnShellsOutward(changed);
+  if (turned) {
+    auto gpu = techniques::GpuMesh::create(context, changed, extras_);
+    if (!gpu) return gpu.error();
+    if (context.lost()) return context.checkErrors("replacing vertices");
+    gpu_ = std::move(gpu).value();
+    geometry_ = {};
+  } else {
+    Status updated = gpu_.update(context, changed);
+    if (updated && context.lost()) updated = context.checkErrors("replacing vertices");
+    if (!updated) {
+      // What was sent already is sent again as it was; where that fails too, the picture tells of both.
+      (void)gpu_.update(context, mesh_).ok();
+      return updated;
+    }
+    geometry_.positionsChanged();
+  }
   animated_ = true;
-  mesh_.positions = std::move(positions);
-  recenteredBy_ = scene::recenter(mesh_);
+  mesh_ = std::move(changed);
+  recenteredBy_ = recenteredBy;
   bounds_ = scene::boundsOf(mesh_);
   supportingPlanes_.reset();
   enclosing_ = {};
-  if (normals != nullptr) {
-    for (std::size_t i = 0; i < mesh_.normals.size(); ++i) mesh_.normals[i] = glm::make_vec3(normals + 3 * i);
-  }
-  if (!scene::turnShellsOutward(mesh_)) {
-    geometry_.positionsChanged();
-    return gpu_.update(context, mesh_);
-  }
-  // A pose that mirrors the mesh, or the way back: other windings, so other indices and half-edges.
-  geometry_ = {};
-  auto gpu = techniques::GpuMesh::create(context, mesh_);
-  if (!gpu) return gpu.error();
-  gpu_ = std::move(gpu).value();
   return {};
 }
 
@@ -110,32 +134,36 @@ class Hasher {
 };
 }  // namespace
 
-MeshStore::Key MeshStore::keyOf(const MeshDesc& desc) {
+MeshStore::Key MeshStore::keyOf(const MeshDesc& desc, techniques::MeshExtras extras) {
   Hasher hasher;
   hasher.add(desc.vertexCount);
+  hasher.add(static_cast<std::uint64_t>(extras));
   const auto* positions = reinterpret_cast<const std::byte*>(desc.positions);
   for (std::size_t i = 0; i < desc.vertexCount; ++i) hasher.add(positions + i * desc.positionStrideBytes, 12);
   hasher.add(desc.indexCount);
   if (desc.indices != nullptr) hasher.add(desc.indices, desc.indexCount * sizeof *desc.indices);
   // Which of the streams there are is told apart by a word before each.
   hasher.add(desc.indices != nullptr ? 1u : 2u);
-  for (const auto& [values, width] : {std::pair(desc.normals, 12u), std::pair(desc.texcoords, 8u)}) {
+  for (const auto& [values, width] :
+       {std::pair(desc.normals, 12u), std::pair(desc.texcoords, 8u), std::pair(desc.colors, 16u)}) {
     hasher.add(values != nullptr ? 1u : 2u);
     if (values != nullptr) hasher.add(values, std::size_t{desc.vertexCount} * width);
   }
   return {hasher.low(), hasher.high()};
 }
 
-Result<std::shared_ptr<ObjectMesh>> MeshStore::find(gl::Context& context, const MeshDesc& desc) {
+Result<std::shared_ptr<ObjectMesh>> MeshStore::find(gl::Context& context, const MeshDesc& desc,
+                                                    techniques::MeshExtras extras) {
   // What has no positions is refused there.
-  if (desc.positions == nullptr || desc.positionStrideBytes < 12) return ObjectMesh::create(context, desc);
+  if (desc.positions == nullptr || desc.positionStrideBytes < 12)
+    return ObjectMesh::create(context, desc, extras);
   if (meshes_.size() >= sweepAt_) {
     std::erase_if(meshes_, [](const auto& entry) { return entry.second.expired(); });
     sweepAt_ = std::max<std::size_t>(64, 2 * meshes_.size());
   }
-  std::weak_ptr<ObjectMesh>& known = meshes_[keyOf(desc)];
+  std::weak_ptr<ObjectMesh>& known = meshes_[keyOf(desc, extras)];
   if (auto mesh = known.lock(); mesh && !mesh->animated()) return mesh;
-  auto made = ObjectMesh::create(context, desc);
+  auto made = ObjectMesh::create(context, desc, extras);
   if (made) known = *made;
   return made;
 }

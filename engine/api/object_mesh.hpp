@@ -21,10 +21,15 @@ namespace halfshadow::api {
 class ObjectMesh {
  public:
   /// Checks, recentres and uploads. Errors: those of Engine::addObject.
-  static Result<std::shared_ptr<ObjectMesh>> create(gl::Context& context, const MeshDesc& desc);
+  static Result<std::shared_ptr<ObjectMesh>> create(gl::Context& context, const MeshDesc& desc,
+                                                    techniques::MeshExtras extras);
   /// One with other positions (and normals) at the same vertices.
   Result<std::shared_ptr<ObjectMesh>> copy(gl::Context& context) const;
-  /// Replaces positions, and normals where both have them: `desc` as in Engine::setVertices, checked.
+  /// On another context. Errors: outOfMemory, contextLost.
+  Status upload(gl::Context& context);
+  void forgetUpload() { gpu_ = {}; }
+  /// Replaces positions, and normals where both have them: `desc` as in Engine::setVertices, checked. Nothing
+  /// changes when it fails.
   Status setVertices(gl::Context& context, std::vector<glm::vec3> positions, const float* normals);
 
   const scene::TriangleMesh& mesh() const { return mesh_; }  ///< recentred
@@ -47,6 +52,7 @@ class ObjectMesh {
   scene::CasterGeometry geometry_;
   techniques::GpuMesh gpu_;
   scene::Bounds bounds_;
+  techniques::MeshExtras extras_ = techniques::MeshExtras::none;
   bool animated_ = false;
   mutable std::optional<scene::SupportingPlanes> supportingPlanes_;
   mutable scene::EnclosingPoints enclosing_;
@@ -57,7 +63,8 @@ class ObjectMesh {
 class MeshStore {
  public:
   /// Errors: those of ObjectMesh::create.
-  Result<std::shared_ptr<ObjectMesh>> find(gl::Context& context, const MeshDesc& desc);
+  Result<std::shared_ptr<ObjectMesh>> find(gl::Context& context, const MeshDesc& desc,
+                                           techniques::MeshExtras extras);
 
  private:
   /// 128 bits of hash: two meshes that share them are taken for one.
@@ -68,7 +75,7 @@ class MeshStore {
   struct KeyHash {
     std::size_t operator()(const Key& key) const { return static_cast<std::size_t>(key.low); }
   };
-  static Key keyOf(const MeshDesc& desc);
+  static Key keyOf(const MeshDesc& desc, techniques::MeshExtras extras);
   std::unordered_map<Key, std::weak_ptr<ObjectMesh>, KeyHash> meshes_;
   std::size_t sweepAt_ = 64;  ///< so many entries are looked through for those that nobody holds any more
 };

@@ -12,4 +12,10 @@ std::uint64_t combineKeys(std::uint64_t seed, std::uint64_t value) {
   return z ^ (z >> 31);
 }
 
+std::uint64_t textKey(std::string_view text) {
+  std::uint64_t key = 14695981039346656037ull;
+  for (const char c : text) key = (key ^ static_cast<std::uint8_t>(c)) * 1099511628211ull;
+  return key;
+}
+
 }  // namespace halfshadow

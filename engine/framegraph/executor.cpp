@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/log.hpp"
 #include "framegraph/resource_pool.hpp"
 
 namespace halfshadow::framegraph {
@@ -14,9 +13,14 @@ namespace {
 
 const gl::Texture kNoTexture;
 
+// Two views of different sizes in turn keep their images; a window that was resized loses its old ones.
+constexpr int kRunsKept = 5;
+// Frames without a change cost nothing, but for the one in which it is certain that the host stands still.
+constexpr int kStandstill = 8;
+
 Error lostError() {
   return Error{ErrorCode::contextLost,
-               "the OpenGL ES context was lost; create the engine again on a new one"};
+               "the OpenGL ES context was lost; make a new one current and call contextRestored()"};
 }
 
 // Passes of the plan, by position, in which a resource is first and last touched.
@@ -96,11 +100,13 @@ struct Executor::State {
   std::vector<Image*> images;  // of the last run's resources; null = not made, or since given to another
   std::vector<std::unique_ptr<gl::Framebuffer>> hostFramebuffers;
   std::optional<gl::Timer> timer;
+  int standing = 0;  // frames since the last run
 };
 
 // All images are made before the first pass: uploads and allocations between passes stall tile-based GPUs.
 Status Executor::State::takeImages(const Graph& graph, const Plan& plan) {
   pool.beginRun();
+  standing = 0;
   hostFramebuffers.clear();
   images.assign(graph.resources().size(), nullptr);
   for (std::size_t i = 0; i < images.size(); ++i) {
@@ -109,6 +115,8 @@ Status Executor::State::takeImages(const Graph& graph, const Plan& plan) {
     images[i] = pool.findPersistent(desc);
     if (images[i]) (void)pool.persistent(desc).ok();  // marks it used
   }
+  // Only now: the plan may rely on what a persistent image holds since long ago.
+  pool.trim(kRunsKept);
   const std::vector<Use> uses = usesOf(graph, plan);
   for (std::size_t position = 0; position < plan.passes.size(); ++position) {
     for (std::size_t i = 0; i < images.size(); ++i) {
@@ -214,10 +222,8 @@ Result<std::vector<PassReport>> Executor::run(const Graph& graph, const Plan& pl
     forgetContent();
     return lostError();
   }
-  // Errors that the host left behind are not the engine's.
-  if (const Status before = state.context.checkErrors("before the frame"); !before) {
-    logMessage(LogLevel::warning, before.error().message);
-  }
+  // Else the first pass would be blamed for them.
+  if (Status status = state.context.checkErrors("before the passes"); !status) return status.error();
   if (Status status = state.takeImages(graph, plan); !status) return status.error();
   std::vector<Target> targets;
   for (const PlannedPass& planned : plan.passes) {
@@ -301,8 +307,15 @@ std::uint64_t Executor::memoryBytes() const {
 }
 
 void Executor::trim(int frames) {
-  state_->images.clear();
+  for (Image*& image : state_->images) {
+    if (image && state_->pool.isStale(*image, frames)) image = nullptr;
+  }
   state_->pool.trim(frames);
+}
+
+void Executor::repeatRun() {
+  state_->pool.repeatRun();
+  if (++state_->standing == kStandstill) trim(kRunsKept);
 }
 
 void Executor::forgetContent() {

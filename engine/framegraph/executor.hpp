@@ -60,8 +60,11 @@ class Executor {
   const gl::Framebuffer* framebufferFor(const Graph& graph, ResourceId resource) const;
 
   std::uint64_t memoryBytes() const;  ///< of all textures and renderbuffers held now
-  /// Frees persistent resources that the last `frames` runs did not use (0 = everything).
+  /// Frees images that the last `frames` runs did not use (0 = everything). Runs free by themselves what the
+  /// few before them did not use.
   void trim(int frames);
+  /// A frame passed that needs nothing but what the last run left. After some of them running, one frees.
+  void repeatRun();
   void forgetContent();  ///< persistent content becomes invalid (context loss, device change)
 
  private:

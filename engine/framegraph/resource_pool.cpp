@@ -36,11 +36,43 @@ Error missing(const ResourceDesc& desc, device::Capability capability, ErrorCode
                          "', which this driver lacks; declare another format or storage"};
 }
 
+gl::TextureFormat textureFormatOf(Format format, bool has24) {
+  switch (format) {
+    case Format::depth16:
+      return gl::TextureFormat::depth16;
+    case Format::depth24:
+      return has24 ? gl::TextureFormat::depth24 : gl::TextureFormat::depth16;
+    case Format::depth24Stencil8:
+      return gl::TextureFormat::depth24Stencil8;
+    case Format::rgba8:
+    case Format::stencil8:
+      break;
+  }
+  return gl::TextureFormat::rgba8;
+}
+
 }  // namespace
+
+gl::TextureDesc textureDescOf(const ResourceDesc& desc, const device::Capabilities& capabilities) {
+  return {.width = desc.width,
+          .height = desc.height,
+          .format = textureFormatOf(desc.format, capabilities.has(device::Capability::depth24)),
+          .filter = filterOf(desc.filter),
+          .mipmapped = desc.mipmapped};
+}
 
 void ResourcePool::beginRun() {
   ++run_;
   for (const auto& image : transient_) image->taken = false;
+}
+
+void ResourcePool::repeatRun() {
+  const auto repeat = [&](Image& image) {
+    if (image.lastRun == run_) ++image.lastRun;
+  };
+  for (const auto& [name, image] : persistent_) repeat(*image);
+  for (const auto& image : transient_) repeat(*image);
+  ++run_;
 }
 
 Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& desc) {
@@ -54,7 +86,6 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
     return missing(desc, device::Capability::packedDepthStencil, ErrorCode::capabilityMissing);
   }
   const bool has24 = capabilities.has(device::Capability::depth24);
-  gl::TextureFormat textureFormat = gl::TextureFormat::rgba8;
   gl::RenderbufferFormat renderbufferFormat = gl::RenderbufferFormat::depth16;
   switch (desc.format) {
     case Format::rgba8:
@@ -66,10 +97,8 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
       }
       break;
     case Format::depth16:
-      textureFormat = gl::TextureFormat::depth16;
       break;
     case Format::depth24:
-      textureFormat = has24 ? gl::TextureFormat::depth24 : gl::TextureFormat::depth16;
       renderbufferFormat = has24 ? gl::RenderbufferFormat::depth24 : gl::RenderbufferFormat::depth16;
       break;
     case Format::stencil8:
@@ -81,7 +110,6 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
       renderbufferFormat = gl::RenderbufferFormat::stencil8;
       break;
     case Format::depth24Stencil8:
-      textureFormat = gl::TextureFormat::depth24Stencil8;
       renderbufferFormat = gl::RenderbufferFormat::depth24Stencil8;
       break;
   }
@@ -89,11 +117,7 @@ Result<std::unique_ptr<Image>> ResourcePool::createImage(const ResourceDesc& des
   image->desc = desc;
   image->serial = nextSerial_++;
   if (isTexture) {
-    Result<gl::Texture> texture = gl::Texture::create(context_, {.width = desc.width,
-                                                                 .height = desc.height,
-                                                                 .format = textureFormat,
-                                                                 .filter = filterOf(desc.filter),
-                                                                 .mipmapped = desc.mipmapped});
+    Result<gl::Texture> texture = gl::Texture::create(context_, textureDescOf(desc, capabilities));
     if (!texture)
       return Error{texture.error().code, "resource '" + desc.name + "': " + texture.error().message};
     image->texture = std::move(*texture);
@@ -168,9 +192,13 @@ std::uint64_t ResourcePool::memoryBytes() const {
   return bytes;
 }
 
+bool ResourcePool::isStale(const Image& image, int runs) const {
+  return image.lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+}
+
 void ResourcePool::trim(int runs) {
   const auto stale = [&](const Image& image) {
-    const bool old = image.lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+    const bool old = isStale(image, runs);
     if (old) forgetFramebuffersOf(image);
     return old;
   };

@@ -35,11 +35,16 @@ struct AttachedImages {
   const Image* stencil = nullptr;
 };
 
+/// Of the texture behind a resource with Storage::texture and a format that textures have.
+gl::TextureDesc textureDescOf(const ResourceDesc& desc, const device::Capabilities& capabilities);
+
 class ResourcePool {
  public:
   explicit ResourcePool(gl::Context& context) : context_(context) {}
 
   void beginRun();  ///< all transient images become free
+  /// The last run counts once more, with the images that it used.
+  void repeatRun();
   /// The persistent image of this name; one of another description is replaced (its content is lost).
   /// Errors: those of createImage.
   Result<Image*> persistent(const ResourceDesc& desc);
@@ -51,7 +56,9 @@ class ResourcePool {
   Result<const gl::Framebuffer*> framebuffer(const AttachedImages& images);
 
   std::uint64_t memoryBytes() const;
-  void trim(int runs);   ///< frees what the last `runs` runs did not use; 0 = everything
+  /// Not used by the last `runs` runs; with 0 every image is.
+  bool isStale(const Image& image, int runs) const;
+  void trim(int runs);   ///< frees stale images
   void forgetContent();  ///< all content keys become 0
 
  private:

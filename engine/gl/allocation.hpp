@@ -11,10 +11,10 @@
 namespace halfshadow::gl {
 
 std::string sizeText(int width, int height);
-/// Errors that earlier calls left must not be blamed on the next one.
-void drainErrors(const Functions& gl);
-/// What glGetError says about the storage just asked for. Errors: outOfMemory, capabilityMissing.
-Status allocationStatus(const Functions& gl, const std::string& what);
-Error lostError(const std::string& what);
+/// What glGetError says about the storage just asked for; errors of earlier calls are collected before it.
+/// Errors: outOfMemory, capabilityMissing.
+Status allocationStatus(Context& context, const std::string& what);
+/// The driver gave no name for it.
+Error noNameError(const Context& context, const std::string& what);
 
 }  // namespace halfshadow::gl

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <sstream>
+#include <utility>
 
 #include "gl/host_state.hpp"
 #include "gl/probes.hpp"
@@ -38,7 +39,7 @@ device::Limits readLimits(const Functions& gl) {
 }
 
 /// Major version of "OpenGL ES 3.2 …"; 0 when the text is of another form.
-int majorVersion(const std::string& version) {
+int majorVersionOf(const std::string& version) {
   constexpr std::string_view kPrefix = "OpenGL ES ";
   if (!version.starts_with(kPrefix) || version.size() <= kPrefix.size()) return 0;
   const char digit = version[kPrefix.size()];
@@ -67,49 +68,108 @@ const char* errorText(GLenum error) {
 Result<std::unique_ptr<Context>> Context::create(const GetProcAddress& getProcAddress,
                                                  const ContextOptions& options) {
   std::unique_ptr<Context> context(new Context());
-  const std::string missing = context->functions_.load(getProcAddress);
+  if (Status s = context->open(getProcAddress, options); !s) return s.error();
+  return context;
+}
+
+Status Context::reopen(const GetProcAddress& getProcAddress, const ContextOptions& options) {
+  lost_ = false;
+  capabilities_ = {};
+  faults_.clear();
+  noteBindingsChanged();
+  Status opened = open(getProcAddress, options);
+  if (!opened) markLost();
+  return opened;
+}
+
+Status Context::open(const GetProcAddress& getProcAddress, const ContextOptions& options) {
+  const std::string missing = functions_.load(getProcAddress);
   if (!missing.empty()) {
     return Error{ErrorCode::driverMissing,
                  "getProcAddress does not find these OpenGL ES 2.0 entry points: " + missing +
                      "; give the loader of a current OpenGL ES 2.0 context."};
   }
-  const Functions& gl = context->functions_;
-  device::Capabilities& capabilities = context->capabilities_;
-  capabilities.driver = {stringOf(gl, GL_VENDOR), stringOf(gl, GL_RENDERER), stringOf(gl, GL_VERSION),
-                         stringOf(gl, GL_SHADING_LANGUAGE_VERSION)};
-  if (capabilities.driver.version.empty()) {
+  const Functions& gl = functions_;
+  capabilities_.driver = {stringOf(gl, GL_VENDOR), stringOf(gl, GL_RENDERER), stringOf(gl, GL_VERSION),
+                          stringOf(gl, GL_SHADING_LANGUAGE_VERSION)};
+  const std::string& version = capabilities_.driver.version;
+  if (version.empty()) {
     return Error{ErrorCode::driverMissing,
                  "No OpenGL ES context is current on this thread; make one current first."};
   }
-  if (majorVersion(capabilities.driver.version) < 2) {
-    return Error{ErrorCode::driverMissing, "The current context is \"" + capabilities.driver.version +
-                                               "\"; OpenGL ES 2.0 or later is needed."};
+  majorVersion_ = majorVersionOf(version);
+  if (majorVersion_ < 2) {
+    return Error{ErrorCode::driverMissing,
+                 "The current context is \"" + version + "\"; OpenGL ES 2.0 or later is needed."};
   }
   std::istringstream words(stringOf(gl, GL_EXTENSIONS));
-  for (std::string word; words >> word;) capabilities.extensions.push_back(word);
-  std::sort(capabilities.extensions.begin(), capabilities.extensions.end());
-  capabilities.limits = readLimits(gl);
-
+  for (std::string word; words >> word;) capabilities_.extensions.push_back(word);
+  std::sort(capabilities_.extensions.begin(), capabilities_.extensions.end());
+  capabilities_.limits = readLimits(gl);
   {
-    const HostStateGuard guard(*context, HostStatePolicy::restore);
-    probeCapabilities(*context, capabilities, options.forcedOff);
+    const HostStateGuard guard(*this, HostStatePolicy::restore);
+    probeCapabilities(*this, capabilities_, options.forcedOff);
   }
-  context->uploads_ = {};
-  return context;
+  uploads_ = {};
+  if (lost_) return checkErrors("Opening the context");
+  return {};
 }
 
-Status Context::checkErrors(const char* where) const {
-  if (lost_)
-    return Error{ErrorCode::contextLost, std::string(where) + ": the context was lost; create a new one."};
-  std::string errors;
-  // A lost context may answer with errors for ever.
+void Context::markLost() {
+  lost_ = true;
+  functions_.disconnect();
+}
+
+bool Context::advertises(std::string_view extension) const {
+  return std::binary_search(capabilities_.extensions.begin(), capabilities_.extensions.end(), extension);
+}
+
+GLenum Context::takeError() {
+  constexpr GLenum kContextLost = 0x0507;  // of GL_KHR_robustness
+  const GLenum error = functions_.getError();
+  if (error == kContextLost) markLost();
+  return lost_ ? GL_NO_ERROR : error;
+}
+
+void Context::collectErrors() {
   for (int i = 0; i < 32; ++i) {
-    const GLenum error = functions_.getError();
-    if (error == GL_NO_ERROR) break;
-    errors += (errors.empty() ? "" : ", ") + std::string(errorText(error));
+    const GLenum error = takeError();
+    if (error == GL_NO_ERROR) return;
+    faultsAreMemory_ = faults_.empty() ? error == GL_OUT_OF_MEMORY : faultsAreMemory_;
+    faults_ += (faults_.empty() ? "" : ", ") + std::string(errorText(error));
   }
-  if (errors.empty()) return {};
-  return Error{ErrorCode::driverFault, std::string(where) + ": the driver raised " + errors + "."};
+}
+
+void Context::dropFaults() {
+  collectErrors();
+  faults_.clear();
+}
+
+void Context::noteFault(const std::string& what) {
+  if (faults_.empty()) faultsAreMemory_ = false;
+  faults_ += (faults_.empty() ? "" : ", ") + what;
+}
+
+Status Context::checkMemory(std::uint64_t moreBytes, const std::string& what) {
+  if (memoryLimit_ == 0 || storedBytes_ + moreBytes <= memoryLimit_) return {};
+  limitReached_ = true;
+  return Error{ErrorCode::outOfMemory, what + " would take " + std::to_string(storedBytes_ + moreBytes) +
+                                           " bytes where setMemoryLimit allows " +
+                                           std::to_string(memoryLimit_) +
+                                           "; raise it, or choose smaller maps or a smaller target."};
+}
+
+Status Context::checkErrors(const char* where) {
+  collectErrors();
+  if (lost_) {
+    return Error{ErrorCode::contextLost, std::string(where) +
+                                             ": the context was lost; make a new one current and call "
+                                             "contextRestored()."};
+  }
+  if (faults_.empty()) return {};
+  const std::string errors = std::exchange(faults_, {});
+  return Error{faultsAreMemory_ ? ErrorCode::outOfMemory : ErrorCode::driverFault,
+               std::string(where) + ": the driver raised " + errors + "."};
 }
 
 }  // namespace halfshadow::gl

@@ -7,6 +7,9 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -50,26 +53,59 @@ class Context {
   };
   Uploads& uploads() { return uploads_; }
 
+  /// Bytes behind all live textures, renderbuffers and buffers, by their formats.
+  std::uint64_t storedBytes() const { return storedBytes_; }
+  void noteStorage(std::uint64_t before, std::uint64_t now) { storedBytes_ += now - before; }
+  /// No more than this is asked of the driver; 0 = no limit. What is held already stays.
+  void setMemoryLimit(std::uint64_t bytes) { memoryLimit_ = bytes; }
+  std::uint64_t memoryLimit() const { return memoryLimit_; }
+  /// Before so many more are asked for. Errors: outOfMemory.
+  Status checkMemory(std::uint64_t moreBytes, const std::string& what);
+  /// checkMemory() refused something since this was last asked.
+  bool takeLimitReached() { return std::exchange(limitReached_, false); }
+
   /// Every change of a binding outside the encoder (uploads, deletion) counts here, so that the encoder's
   /// cache knows when it is stale.
   void noteBindingsChanged() { ++bindingRevision_; }
   std::uint64_t bindingRevision() const { return bindingRevision_; }
 
-  /// After the host lost its context: objects forget their names and delete nothing.
-  void markLost() { lost_ = true; }
+  /// After the host lost its context: objects forget their names and delete nothing, and no entry point is
+  /// called any more, not even by a call that is under way.
+  void markLost();
   bool lost() const { return lost_; }
+  /// The same again on a new context that is current now, as create() would; all objects of the old one are
+  /// gone. Errors: those of create(); then it stays lost.
+  Status reopen(const GetProcAddress& getProcAddress, const ContextOptions& options);
+  /// Of the version text; 0 when it is of another form.
+  int majorVersion() const { return majorVersion_; }
+  bool advertises(std::string_view extension) const;
 
-  /// Drains glGetError. Errors: contextLost after markLost(); driverFault naming the errors
+  /// glGetError; a context that says that it is gone is marked as lost.
+  GLenum takeError();
+  /// Drains glGetError: what is found is an error of the frame, told by the next checkErrors().
+  void collectErrors();
+  bool hasFaults() const { return !faults_.empty(); }
+  /// Drains and forgets: between the engine's calls errors are the host's.
+  void dropFaults();
+  /// Something failed where no error can be returned; `what` has failed.
+  void noteFault(const std::string& what);
+  /// Drains glGetError. Errors: contextLost after markLost(); outOfMemory, driverFault naming the errors
   /// and `where`.
-  Status checkErrors(const char* where) const;
+  Status checkErrors(const char* where);
 
  private:
   Context() = default;
+  Status open(const GetProcAddress& getProcAddress, const ContextOptions& options);
   Functions functions_;
   device::Capabilities capabilities_;
   LiveObjects liveObjects_;
   Uploads uploads_;
+  std::uint64_t storedBytes_ = 0, memoryLimit_ = 0;
   std::uint64_t bindingRevision_ = 0;
+  bool limitReached_ = false;
+  int majorVersion_ = 0;
+  std::string faults_;  ///< found, and not told yet
+  bool faultsAreMemory_ = false;
   bool lost_ = false;
 };
 

@@ -45,13 +45,15 @@ Result<Renderbuffer> Renderbuffer::create(Context& context, int width, int heigh
   renderbuffer.format_ = format;
   renderbuffer.width_ = width;
   renderbuffer.height_ = height;
+  if (Status status = context.checkMemory(renderbuffer.byteCount(), what); !status) return status.error();
   renderbuffer.object_ = Object<ObjectKind::renderbuffer>::create(context);
-  if (!renderbuffer.object_) return lostError(what);
+  if (!renderbuffer.object_) return noNameError(context, what);
   const Functions& gl = context.functions();
-  drainErrors(gl);
+  context.collectErrors();
   gl.bindRenderbuffer(GL_RENDERBUFFER, renderbuffer.name());
   gl.renderbufferStorage(GL_RENDERBUFFER, encodingOf(format).format, width, height);
-  if (Status status = allocationStatus(gl, what); !status) return status.error();
+  if (Status status = allocationStatus(context, what); !status) return status.error();
+  renderbuffer.object_.setStoredBytes(renderbuffer.byteCount());
   return renderbuffer;
 }
 
@@ -63,9 +65,9 @@ std::size_t Renderbuffer::byteCount() const {
 Result<Framebuffer> Framebuffer::create(Context& context, const FramebufferAttachments& attachments) {
   Framebuffer framebuffer;
   framebuffer.object_ = Object<ObjectKind::framebuffer>::create(context);
-  if (!framebuffer.object_) return lostError("Framebuffer");
+  if (!framebuffer.object_) return noNameError(context, "Framebuffer");
   const Functions& gl = context.functions();
-  drainErrors(gl);
+  context.collectErrors();
   context.noteBindingsChanged();
   gl.bindFramebuffer(GL_FRAMEBUFFER, framebuffer.name());
   const auto adoptSize = [&](int width, int height) {
@@ -109,8 +111,9 @@ Result<Framebuffer> Framebuffer::create(Context& context, const FramebufferAttac
     parts += " stencil renderbuffer";
   }
   const GLenum status = gl.checkFramebufferStatus(GL_FRAMEBUFFER);
+  if (context.lost()) return noNameError(context, "Framebuffer");
   if (status != GL_FRAMEBUFFER_COMPLETE) {
-    drainErrors(gl);
+    context.collectErrors();
     const char* reason = status == GL_FRAMEBUFFER_UNSUPPORTED                     ? "unsupported"
                          : status == GL_FRAMEBUFFER_INCOMPLETE_ATTACHMENT         ? "incomplete attachment"
                          : status == GL_FRAMEBUFFER_INCOMPLETE_MISSING_ATTACHMENT ? "no attachment"
@@ -131,6 +134,25 @@ Framebuffer Framebuffer::wrap(std::uint32_t name, int width, int height) {
   framebuffer.width_ = width;
   framebuffer.height_ = height;
   return framebuffer;
+}
+
+Status checkHostFramebuffer(Context& context, std::uint32_t name) {
+  const Functions& gl = context.functions();
+  const std::string what = "the host's framebuffer " + std::to_string(name);
+  // Binding a name that stands for nothing would make something of it.
+  if (name != 0 && !gl.isFramebuffer(name))
+    return Error{ErrorCode::invalidArgument, what + " does not exist; name one, or 0"};
+  context.noteBindingsChanged();
+  gl.bindFramebuffer(GL_FRAMEBUFFER, name);
+  if (gl.checkFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+    return Error{ErrorCode::invalidArgument, what + " is not complete; attach what it lacks"};
+  GLint depthBits = 0;
+  gl.getIntegerv(GL_DEPTH_BITS, &depthBits);
+  if (depthBits == 0) {
+    return Error{ErrorCode::invalidArgument,
+                 what + " has no depth; attach a depth buffer, without which nothing hides anything"};
+  }
+  return {};
 }
 
 }  // namespace halfshadow::gl

@@ -3,6 +3,23 @@
 #include "gl/functions.hpp"
 
 namespace halfshadow::gl {
+namespace {
+template <typename Result, typename... Arguments>
+Result GL_APIENTRY nothing(Arguments...) {
+  return Result();
+}
+template <typename Result, typename... Arguments>
+void disconnectOne(Result(GL_APIENTRYP& function)(Arguments...)) {
+  if (function) function = &nothing<Result, Arguments...>;
+}
+}  // namespace
+
+void Functions::disconnect() {
+#define HALFSHADOW_GL_DISCONNECT(member, ...) disconnectOne(member);
+  HALFSHADOW_GL_CORE_FUNCTIONS(HALFSHADOW_GL_DISCONNECT)
+  HALFSHADOW_GL_OPTIONAL_FUNCTIONS(HALFSHADOW_GL_DISCONNECT)
+#undef HALFSHADOW_GL_DISCONNECT
+}
 
 std::string Functions::load(const std::function<void*(const char* name)>& getProcAddress) {
   std::string missing;

@@ -76,6 +76,7 @@ namespace halfshadow::gl {
   X(getVertexAttribiv, glGetVertexAttribiv)               \
   X(getVertexAttribPointerv, glGetVertexAttribPointerv)   \
   X(isEnabled, glIsEnabled)                               \
+  X(isFramebuffer, glIsFramebuffer)                       \
   X(isProgram, glIsProgram)                               \
   X(isTexture, glIsTexture)                               \
   X(linkProgram, glLinkProgram)                           \
@@ -106,15 +107,27 @@ namespace halfshadow::gl {
   X(viewport, glViewport)
 
 // X(member, "glName", type): of extensions; null where the driver has none.
-#define HALFSHADOW_GL_OPTIONAL_FUNCTIONS(X)                                        \
-  X(discardFramebuffer, "glDiscardFramebufferEXT", PFNGLDISCARDFRAMEBUFFEREXTPROC) \
-  X(genQueries, "glGenQueriesEXT", PFNGLGENQUERIESEXTPROC)                         \
-  X(deleteQueries, "glDeleteQueriesEXT", PFNGLDELETEQUERIESEXTPROC)                \
-  X(beginQuery, "glBeginQueryEXT", PFNGLBEGINQUERYEXTPROC)                         \
-  X(endQuery, "glEndQueryEXT", PFNGLENDQUERYEXTPROC)                               \
-  X(getQueryiv, "glGetQueryivEXT", PFNGLGETQUERYIVEXTPROC)                         \
-  X(getQueryObjectuiv, "glGetQueryObjectuivEXT", PFNGLGETQUERYOBJECTUIVEXTPROC)    \
-  X(getQueryObjectui64v, "glGetQueryObjectui64vEXT", PFNGLGETQUERYOBJECTUI64VEXTPROC)
+#define HALFSHADOW_GL_OPTIONAL_FUNCTIONS(X)                                                          \
+  X(discardFramebuffer, "glDiscardFramebufferEXT", PFNGLDISCARDFRAMEBUFFEREXTPROC)                   \
+  X(genQueries, "glGenQueriesEXT", PFNGLGENQUERIESEXTPROC)                                           \
+  X(deleteQueries, "glDeleteQueriesEXT", PFNGLDELETEQUERIESEXTPROC)                                  \
+  X(beginQuery, "glBeginQueryEXT", PFNGLBEGINQUERYEXTPROC)                                           \
+  X(endQuery, "glEndQueryEXT", PFNGLENDQUERYEXTPROC)                                                 \
+  X(getQueryiv, "glGetQueryivEXT", PFNGLGETQUERYIVEXTPROC)                                           \
+  X(getQueryObjectuiv, "glGetQueryObjectuivEXT", PFNGLGETQUERYOBJECTUIVEXTPROC)                      \
+  X(getQueryObjectui64v, "glGetQueryObjectui64vEXT", PFNGLGETQUERYOBJECTUI64VEXTPROC)                \
+  X(bindVertexArray, "glBindVertexArray", PFNGLBINDVERTEXARRAYOESPROC)                               \
+  X(bindVertexArrayOes, "glBindVertexArrayOES", PFNGLBINDVERTEXARRAYOESPROC)                         \
+  X(vertexAttribDivisor, "glVertexAttribDivisor", PFNGLVERTEXATTRIBDIVISOREXTPROC)                   \
+  X(vertexAttribDivisorExt, "glVertexAttribDivisorEXT", PFNGLVERTEXATTRIBDIVISOREXTPROC)             \
+  X(vertexAttribDivisorAngle, "glVertexAttribDivisorANGLE", PFNGLVERTEXATTRIBDIVISORANGLEPROC)       \
+  X(bindSampler, "glBindSampler", ::halfshadow::gl::BindSamplerFunction)                             \
+  X(pauseTransformFeedback, "glPauseTransformFeedback", ::halfshadow::gl::TransformFeedbackFunction) \
+  X(resumeTransformFeedback, "glResumeTransformFeedback", ::halfshadow::gl::TransformFeedbackFunction)
+
+// Of OpenGL ES 3.0, whose header is not included: the engine only undoes with them what a host did.
+using BindSamplerFunction = void(GL_APIENTRYP)(GLuint unit, GLuint sampler);
+using TransformFeedbackFunction = void(GL_APIENTRYP)();
 
 /// Entry points of one context.
 struct Functions {
@@ -127,6 +140,8 @@ struct Functions {
 
   /// Fills every member. Returns the names of absent core entry points, separated by spaces; empty is good.
   std::string load(const std::function<void*(const char* name)>& getProcAddress);
+  /// Every member that is there does nothing from now on, and answers 0: for a context that is gone.
+  void disconnect();
 };
 
 }  // namespace halfshadow::gl

@@ -4,6 +4,7 @@
 /// The host's OpenGL ES state around a frame.
 #pragma once
 
+#include <array>
 #include <memory>
 
 #include "gl/context.hpp"
@@ -18,8 +19,9 @@ enum class HostStatePolicy {
 };
 
 /// Captures on construction (policy restore), acts on destruction. One list of state types (state_list.hpp)
-/// drives capture, restore, defaults and the hostile-host test. The list is OpenGL ES 2.0: a host on a later
-/// version unbinds its vertex array object, pixel buffers and separate read framebuffer before the frame.
+/// drives capture, restore, defaults and the hostile-host test. The list is OpenGL ES 2.0; what later
+/// versions and common extensions add, LaterState sets aside, whatever the policy. GL errors that the host
+/// had pending are the host's again afterwards.
 class HostStateGuard {
  public:
   HostStateGuard(Context& context, HostStatePolicy policy);
@@ -29,9 +31,12 @@ class HostStateGuard {
 
  private:
   struct Snapshot;
+  void takePendingErrors();
+  void raisePendingErrors() const;
   Context& context_;
   HostStatePolicy policy_;
   std::unique_ptr<Snapshot> snapshot_;
+  std::array<GLenum, 8> pendingErrors_{};  ///< GL_NO_ERROR after the last
 };
 
 }  // namespace halfshadow::gl

@@ -50,6 +50,7 @@ Object<kind> Object<kind>::create(Context& context) {
 template <ObjectKind kind>
 void Object<kind>::reset() {
   if (name_ == 0) return;
+  setStoredBytes(0);
   --liveCount(*context_, kind);
   if (!context_->lost()) {
     const Functions& gl = context_->functions();
@@ -65,6 +66,12 @@ void Object<kind>::reset() {
   }
   context_ = nullptr;
   name_ = 0;
+}
+
+template <ObjectKind kind>
+void Object<kind>::setStoredBytes(std::uint64_t bytes) {
+  if (context_) context_->noteStorage(storedBytes_, bytes);
+  storedBytes_ = bytes;
 }
 
 template class Object<ObjectKind::texture>;

@@ -25,12 +25,15 @@ class Object {
  public:
   Object() = default;
   Object(Object&& other) noexcept
-      : context_(std::exchange(other.context_, nullptr)), name_(std::exchange(other.name_, 0)) {}
+      : context_(std::exchange(other.context_, nullptr)),
+        name_(std::exchange(other.name_, 0)),
+        storedBytes_(std::exchange(other.storedBytes_, 0)) {}
   Object& operator=(Object&& other) noexcept {
     if (this != &other) {
       reset();
       context_ = std::exchange(other.context_, nullptr);
       name_ = std::exchange(other.name_, 0);
+      storedBytes_ = std::exchange(other.storedBytes_, 0);
     }
     return *this;
   }
@@ -42,10 +45,13 @@ class Object {
   void reset();
   std::uint32_t name() const { return name_; }
   explicit operator bool() const { return name_ != 0; }
+  /// What its storage holds now, for Context::storedBytes().
+  void setStoredBytes(std::uint64_t bytes);
 
  private:
   Context* context_ = nullptr;
   std::uint32_t name_ = 0;
+  std::uint64_t storedBytes_ = 0;
 };
 
 using device::TextureDesc;
@@ -126,6 +132,10 @@ class Framebuffer {
   int width_ = 0, height_ = 0;
 };
 
+/// Before a frame draws into a framebuffer of the host's, 0 included; leaves it bound. Errors:
+/// invalidArgument (there is none of that name, it is not complete, or it has no depth).
+Status checkHostFramebuffer(Context& context, std::uint32_t name);
+
 enum class BufferTarget { vertex, index };
 enum class BufferUsage { staticDraw, dynamicDraw, streamDraw };
 
@@ -145,6 +155,7 @@ class Buffer {
   BufferTarget target_ = BufferTarget::vertex;
   BufferUsage usage_ = BufferUsage::staticDraw;
   std::size_t byteCount_ = 0;
+  bool defined_ = false;  ///< it has storage, be it of 0 bytes
 };
 
 }  // namespace halfshadow::gl

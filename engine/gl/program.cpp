@@ -3,7 +3,11 @@
 #include "gl/program.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <glm/gtc/type_ptr.hpp>
+
+#include "base/keys.hpp"
+#include "gl/allocation.hpp"
 
 namespace halfshadow::gl {
 namespace {
@@ -21,7 +25,7 @@ std::string infoLog(GetParameter getParameter, GetLog getLog, GLuint name) {
   std::string log(static_cast<std::size_t>(length), '\0');
   GLsizei written = 0;
   getLog(name, length, &written, log.data());
-  log.resize(static_cast<std::size_t>(written));
+  log.resize(static_cast<std::size_t>(std::clamp(written, 0, length)));
   return log;
 }
 
@@ -92,10 +96,10 @@ Result<Program> Program::link(Context& context, std::string_view vertexSource,
                               std::string_view label) {
   Program program;
   program.label_ = label;
+  program.sourceKey_ = combineKeys(halfshadow::textKey(vertexSource), halfshadow::textKey(fragmentSource));
   program.object_ = Object<ObjectKind::program>::create(context);
   if (!program.object_) {
-    return Error{ErrorCode::contextLost,
-                 "Program " + program.label_ + " cannot be made: the context was lost; create a new one."};
+    return noNameError(context, "Program " + program.label_);
   }
   const Functions& gl = context.functions();
   const auto failure = [&](const char* step, const std::string& log) {
@@ -116,6 +120,7 @@ Result<Program> Program::link(Context& context, std::string_view vertexSource,
   gl.linkProgram(program.name());
   GLint linked = GL_FALSE;
   gl.getProgramiv(program.name(), GL_LINK_STATUS, &linked);
+  if (context.lost()) return noNameError(context, "Program " + program.label_);
   if (linked != GL_TRUE) return failure("the stages do not link", programLog(gl, program.name()));
 
   program.reflect(context, samplerNames);
@@ -142,6 +147,10 @@ void Program::reflect(Context& context, const std::vector<std::string>& samplerN
     const std::string uniformName = nameWithoutIndex(buffer.data());
     Uniform uniform;
     uniform.hash = UniformKey::hashOf(uniformName);
+    if (uniformName.starts_with(kTextKeyPrefix)) {
+      textKey_ = std::strtoull(uniformName.c_str() + kTextKeyPrefix.size(), nullptr, 16);
+      textKeyUniform_.hash = uniform.hash;
+    }
     uniform.location = gl.getUniformLocation(name(), buffer.data());
     uniform.type = type;
     uniform.arraySize = arraySize;
@@ -185,7 +194,7 @@ Program Program::wrap(Context& context, std::uint32_t name) {
 
 void Program::setSampler(Context& context, UniformKey key, int unit) {
   Uniform* uniform = findUniform(key.hash);
-  if (!uniform || context.lost()) return;
+  if (!uniform || context.lost() || uniform->samplerUnit == unit) return;
   uniform->samplerUnit = unit;
   context.functions().uniform1i(uniform->location, unit);
 }

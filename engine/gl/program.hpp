@@ -42,6 +42,13 @@ class Program {
   static Program wrap(Context& context, std::uint32_t name);
   std::uint32_t name() const { return wrapped_ ? wrapped_ : object_.name(); }
   const std::string& label() const { return label_; }
+  /// Of both texts; 0 of a host's program.
+  std::uint64_t sourceKey() const { return sourceKey_; }
+  /// A number that its text carries in the name of a uniform, kTextKeyPrefix and 16 hexadecimal digits;
+  /// 0 = none.
+  static constexpr std::string_view kTextKeyPrefix = "halfshadow_lit_";
+  std::uint64_t textKey() const { return textKey_; }
+  void setTextKeyUniform(Context& context, float value) { set(context, textKeyUniform_, value); }
   /// Makes a sampler read from a unit; the program must be current.
   void setSampler(Context& context, UniformKey key, int unit);
   bool has(UniformKey key) const { return find(key) != nullptr; }
@@ -76,7 +83,10 @@ class Program {
   Uniform* changed(Context& context, UniformKey key, const float* values, std::size_t count);
   Object<ObjectKind::program> object_;
   std::uint32_t wrapped_ = 0;
+  std::uint64_t sourceKey_ = 0;
   std::vector<Uniform> uniforms_;
+  std::uint64_t textKey_ = 0;
+  UniformKey textKeyUniform_ = "";
   std::string label_;
 };
 
@@ -115,6 +125,9 @@ class ProgramCache {
   };
   Result<Sources> assemble(const ProgramVariant& variant) const;
   void clear();
+  /// From here on programs are noted as used, for trim().
+  void beginFrame() { ++frame_; }
+  void trim();  ///< drops those that nobody asked for since beginFrame()
   std::size_t size() const { return programs_.size(); }
   const device::Capabilities& capabilities() const { return context_.capabilities(); }
 
@@ -122,7 +135,12 @@ class ProgramCache {
   Context& context_;
   ShaderSourceProvider provider_;
   std::vector<device::ShaderFamily> families_;
-  std::map<ProgramVariant, std::unique_ptr<Program>> programs_;
+  struct Cached {
+    std::unique_ptr<Program> program;
+    std::uint64_t frame = 0;  ///< in which it was last asked for
+  };
+  std::map<ProgramVariant, Cached> programs_;
+  std::uint64_t frame_ = 0;
 };
 
 }  // namespace halfshadow::gl

@@ -22,7 +22,10 @@ Result<ProgramCache::Sources> ProgramCache::assemble(const ProgramVariant& varia
 }
 
 Result<Program*> ProgramCache::get(const ProgramVariant& variant) {
-  if (const auto found = programs_.find(variant); found != programs_.end()) return found->second.get();
+  if (const auto found = programs_.find(variant); found != programs_.end()) {
+    found->second.frame = frame_;
+    return found->second.program.get();
+  }
   Result<Sources> sources = assemble(variant);
   if (!sources) return sources.error();
   std::string label = variant.vertexFile + " + " + variant.fragmentFile;
@@ -30,8 +33,12 @@ Result<Program*> ProgramCache::get(const ProgramVariant& variant) {
   Result<Program> program =
       Program::link(context_, sources->vertex, sources->fragment, samplerNamesOf(sources->fragment), label);
   if (!program) return program.error();
-  const auto place = programs_.emplace(variant, std::make_unique<Program>(std::move(*program))).first;
-  return place->second.get();
+  Cached cached{std::make_unique<Program>(std::move(*program)), frame_};
+  return programs_.emplace(variant, std::move(cached)).first->second.program.get();
+}
+
+void ProgramCache::trim() {
+  std::erase_if(programs_, [&](const auto& entry) { return entry.second.frame != frame_; });
 }
 
 void ProgramCache::clear() {

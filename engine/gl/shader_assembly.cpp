@@ -94,7 +94,7 @@ Result<std::string> assembleShader(const ShaderSourceProvider& provider, std::st
   if (!text) return assemblyError(fileName, "there is no such file below shaders_es2/.");
   const bool isFragment = fileName.ends_with(".frag");
 
-  std::string source = "#version 100\n";
+  std::string source = "#version 100\n// shaders_es2/" + std::string(fileName) + "\n";
   if (isFragment) {
     Result<std::string> lines = extensionLines(fileName, defines, capabilities);
     if (!lines) return lines.error();

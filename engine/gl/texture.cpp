@@ -59,6 +59,11 @@ bool isPowerOfTwo(int value) {
   return std::has_single_bit(static_cast<unsigned>(value));
 }
 
+GLint glWrap(TextureWrap wrap) {
+  if (wrap == TextureWrap::clampToEdge) return GL_CLAMP_TO_EDGE;
+  return wrap == TextureWrap::repeat ? GL_REPEAT : GL_MIRRORED_REPEAT;
+}
+
 }  // namespace
 
 std::size_t bytesPerTexel(TextureFormat format) {
@@ -77,7 +82,9 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
     return Error{ErrorCode::invalidArgument,
                  what + " cannot have mipmaps: OpenGL ES 2.0 needs powers of two."};
   }
-  if (desc.wrap == TextureWrap::repeat && !powersOfTwo) {
+  const TextureWrap wrapV = desc.wrapV.value_or(desc.wrap);
+  const bool clamps = desc.wrap == TextureWrap::clampToEdge && wrapV == TextureWrap::clampToEdge;
+  if (!clamps && !powersOfTwo) {
     return Error{ErrorCode::invalidArgument, what + " cannot repeat: OpenGL ES 2.0 needs powers of two."};
   }
   const bool filterNeedsMips = desc.filter != TextureFilter::nearest && desc.filter != TextureFilter::linear;
@@ -86,19 +93,21 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
   }
   Texture texture;
   texture.desc_ = desc;
+  if (Status status = context.checkMemory(texture.byteCount(), what); !status) return status.error();
   texture.object_ = Object<ObjectKind::texture>::create(context);
-  if (!texture.object_) return lostError(what);
+  if (!texture.object_) return noNameError(context, what);
 
   const Functions& gl = context.functions();
-  drainErrors(gl);
   context.noteBindingsChanged();
   gl.bindTexture(GL_TEXTURE_2D, texture.name());
+  // Without the binding another texture would be written.
+  context.collectErrors();
+  if (context.hasFaults()) return context.checkErrors(what.c_str()).error();
   gl.pixelStorei(GL_UNPACK_ALIGNMENT, 1);
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, minFilterOf(desc.filter));
   gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, magFilterOf(desc.filter));
-  const GLint wrap = desc.wrap == TextureWrap::repeat ? GL_REPEAT : GL_CLAMP_TO_EDGE;
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, wrap);
-  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, wrap);
+  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, glWrap(desc.wrap));
+  gl.texParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, glWrap(wrapV));
 
   const TextureEncoding encoding = encodingOf(desc.format);
   int width = desc.width, height = desc.height;
@@ -109,7 +118,8 @@ Result<Texture> Texture::create(Context& context, const TextureDesc& desc, const
     width = std::max(1, width / 2);
     height = std::max(1, height / 2);
   }
-  if (Status status = allocationStatus(gl, what); !status) return status.error();
+  if (Status status = allocationStatus(context, what); !status) return status.error();
+  texture.object_.setStoredBytes(texture.byteCount());
   if (pixels) {
     context.uploads().textureBytes +=
         encoding.bytesPerTexel * static_cast<std::size_t>(desc.width) * static_cast<std::size_t>(desc.height);

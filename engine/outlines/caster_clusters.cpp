@@ -15,10 +15,6 @@ constexpr std::uint32_t kStages = 4;
 
 using Entry = scene::LightSilhouettes::Caster;
 
-std::span<const glm::dvec3> loopPoints(const scene::LightSilhouettes& silhouettes, std::uint32_t loop) {
-  return std::span(silhouettes.points).subspan(silhouettes.loops[loop].first, silhouettes.loops[loop].count);
-}
-
 struct Rectangle {
   glm::dvec2 low{1e300}, high{-1e300};
 };
@@ -27,7 +23,7 @@ struct Rectangle {
 Rectangle seenFrom(const scene::LightSilhouettes& silhouettes, const Entry& entry, const glm::dvec2& source) {
   Rectangle seen;
   for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l) {
-    for (const glm::dvec3& p : loopPoints(silhouettes, l)) {
+    for (const glm::dvec3& p : silhouettes.loopPoints(l)) {
       const glm::dvec2 flat = (glm::dvec2(p) - source) / p.z;
       seen.low = glm::min(seen.low, flat);
       seen.high = glm::max(seen.high, flat);
@@ -36,19 +32,14 @@ Rectangle seenFrom(const scene::LightSilhouettes& silhouettes, const Entry& entr
   return seen;
 }
 
-template <typename Vector>
-bool boxesMeet(const Vector& lowA, const Vector& highA, const Vector& lowB, const Vector& highB) {
-  return glm::all(glm::lessThanEqual(lowA, highB)) && glm::all(glm::lessThanEqual(lowB, highA));
-}
-
 /// Their boxes meet in the world, or those of their outlines seen along the light: what stands in rows one
 /// behind the other has edges over each other all along a shadow.
 bool touch(const Entry& p, const Entry& q) {
-  const scene::Bounds &a = p.partWorld, &b = q.partWorld;
-  if (boxesMeet(a.low, a.high, b.low, b.high)) return true;
-  const glm::vec3 pHigh(p.high.x, p.high.y, std::max(p.high.z, p.deepest));
-  const glm::vec3 qHigh(q.high.x, q.high.y, std::max(q.high.z, q.deepest));
-  return boxesMeet(p.low, pHigh, q.low, qHigh);
+  if (p.partWorld.meets(q.partWorld)) return true;
+  const auto alongLight = [](const Entry& entry) {
+    return scene::Bounds{glm::dvec3(entry.low), {entry.high.x, entry.high.y, std::max(entry.high.z, entry.deepest)}};
+  };
+  return alongLight(p).meets(alongLight(q));
 }
 
 /// Merges casters that touch and cover some of the same, among those that do not stand alone.
@@ -154,7 +145,7 @@ class ClusterFinder {
       const auto side =
           entries_[c]->turnedAway ? scene::CoveredLevels::Side::away : scene::CoveredLevels::Side::towards;
       for (std::uint32_t l = entries_[c]->firstLoop; l < entries_[c]->firstLoop + entries_[c]->loopCount; ++l)
-        arrangement_.addLoop(loopPoints(silhouettes_, l), surface, side);
+        arrangement_.addLoop(silhouettes_.loopPoints(l), surface, side);
     }
     if (!arrangement_.find(levels_, 1) || levels_.empty()) return false;
     together.clear();
@@ -175,6 +166,32 @@ class ClusterFinder {
   scene::CoveredLevels arrangement_;
   std::vector<scene::CoveredLevels::Level> levels_;
 };
+
+/// Whether what the entries of a group cover together was found: levels[0].
+bool coveredByAny(const scene::LightSilhouettes& outlines, std::span<const std::uint32_t> group,
+                  scene::CoveredLevels& arrangement, std::vector<scene::CoveredLevels::Level>& levels) {
+  if (group.size() < 2) return false;
+  arrangement.start(glm::dvec2(0.0));
+  for (std::uint32_t k = 0; k < group.size(); ++k) {
+    const Entry& entry = outlines.casters[group[k]];
+    for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l)
+      arrangement.addLoop(outlines.loopPoints(l), k, scene::CoveredLevels::Side::towards);
+  }
+  return arrangement.find(levels, 1) && !levels.empty();
+}
+
+/// One entry with the bounds of a group, its loops not set.
+Entry unionOf(const scene::LightSilhouettes& outlines, std::span<const std::uint32_t> group) {
+  Entry all = outlines.casters[group[0]];
+  for (const std::uint32_t c : group) {
+    const Entry& entry = outlines.casters[c];
+    all.low = glm::min(all.low, entry.low);
+    all.high = glm::max(all.high, entry.high);
+    all.deepest = std::max(all.deepest, entry.deepest);
+    all.partWorld.include(entry.partWorld);
+  }
+  return all;
+}
 }  // namespace
 
 std::vector<CasterCluster> casterClusters(const scene::LightSilhouettes& silhouettes,
@@ -182,7 +199,7 @@ std::vector<CasterCluster> casterClusters(const scene::LightSilhouettes& silhoue
   return ClusterFinder(silhouettes, loops, space).find();
 }
 
-scene::LightSilhouettes takenTogether(const scene::LightSilhouettes& outlines) {
+scene::LightSilhouettes takenTogether(scene::LightSilhouettes outlines) {
   std::vector<const Entry*> entries;
   for (const Entry& entry : outlines.casters) entries.push_back(&entry);
   scene::DisjointSets sets(entries.size());
@@ -192,43 +209,20 @@ scene::LightSilhouettes takenTogether(const scene::LightSilhouettes& outlines) {
   mergeTouching(outlines, entries, glm::dvec2(0.0), standsAlone, sets);
   std::vector<std::uint32_t> numberOf;
   std::vector<std::vector<std::uint32_t>> groups(sets.number(numberOf));
+  if (groups.size() == entries.size()) return outlines;
   for (std::uint32_t c = 0; c < entries.size(); ++c) groups[numberOf[c]].push_back(c);
   scene::LightSilhouettes result;
+  result.counters = outlines.counters;
   scene::CoveredLevels arrangement;
   std::vector<scene::CoveredLevels::Level> levels;
-  const auto append = [&](Entry entry, auto&& loops) {
-    entry.firstLoop = static_cast<std::uint32_t>(result.loops.size());
-    for (const std::span<const glm::dvec3> loop : loops) {
-      result.loops.push_back(
-          {static_cast<std::uint32_t>(result.points.size()), static_cast<std::uint32_t>(loop.size())});
-      result.points.insert(result.points.end(), loop.begin(), loop.end());
-    }
-    entry.loopCount = static_cast<std::uint32_t>(result.loops.size()) - entry.firstLoop;
-    result.casters.push_back(entry);
-  };
   for (const std::vector<std::uint32_t>& group : groups) {
-    arrangement.start(glm::dvec2(0.0));
-    for (std::uint32_t k = 0; k < group.size(); ++k) {
-      const Entry& entry = *entries[group[k]];
-      for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l)
-        arrangement.addLoop(loopPoints(outlines, l), k, scene::CoveredLevels::Side::towards);
-    }
-    if (group.size() > 1 && arrangement.find(levels, 1) && !levels.empty()) {
-      Entry all = *entries[group[0]];
-      for (const std::uint32_t c : group) {
-        all.low = glm::min(all.low, entries[c]->low);
-        all.high = glm::max(all.high, entries[c]->high);
-        all.deepest = std::max(all.deepest, entries[c]->deepest);
-        all.partWorld.include(entries[c]->partWorld);
-      }
-      append(all, levels[0] | std::views::transform(
-                                  [](const auto& loop) { return std::span<const glm::dvec3>(loop.points); }));
-      continue;
-    }
-    for (const std::uint32_t c : group) {
-      const Entry& entry = *entries[c];
-      append(entry, std::views::iota(entry.firstLoop, entry.firstLoop + entry.loopCount) |
-                        std::views::transform([&](std::uint32_t l) { return loopPoints(outlines, l); }));
+    if (coveredByAny(outlines, group, arrangement, levels)) {
+      result.casters.push_back(unionOf(outlines, group));
+      result.casters.back().firstLoop = static_cast<std::uint32_t>(result.loops.size());
+      result.casters.back().loopCount = static_cast<std::uint32_t>(levels[0].size());
+      for (const scene::CoveredLevels::Loop& loop : levels[0]) result.addLoop(loop.points);
+    } else {
+      for (const std::uint32_t c : group) result.addCaster(outlines, *entries[c]);
     }
   }
   return result;

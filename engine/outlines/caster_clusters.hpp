@@ -20,6 +20,6 @@ std::vector<CasterCluster> casterClusters(const scene::LightSilhouettes& silhoue
 /// `outlines` of whole parts, seen from the light's centre: those of a cluster as one, for sums of coverage
 /// that could tell no overlap. Of receivers between its casters those behind some lose what these hide of the
 /// others; seldom seen, since casters' own surfaces are listed.
-scene::LightSilhouettes takenTogether(const scene::LightSilhouettes& outlines);
+scene::LightSilhouettes takenTogether(scene::LightSilhouettes outlines);
 
 }  // namespace halfshadow::outlines

@@ -74,6 +74,8 @@ struct FramePlanner::LightHistory {
 
 FramePlanner::FramePlanner() = default;
 FramePlanner::~FramePlanner() = default;
+FramePlanner::FramePlanner(FramePlanner&&) noexcept = default;
+FramePlanner& FramePlanner::operator=(FramePlanner&&) noexcept = default;
 
 std::uint64_t FramePlanner::pairsAsked() const {
   std::uint64_t pairs = 0;
@@ -189,7 +191,11 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   const bool dynamic = history.changedFramesRunning >= kChangesUntilDynamic;
   const std::uint64_t now = neverZero(combineKeys(combineKeys(sceneRevision_, lightRevision), cameraKey_));
   bool relevantChanged = false;
-  if (history.relevanceOf != now || objectsListed_) {
+  if (input.receiversUnknown) {
+    relevantChanged = history.relevant != casters_;
+    history.relevant = casters_;
+    history.relevanceOf = 0;
+  } else if (history.relevanceOf != now || objectsListed_) {
     history.relevanceOf = now;
     history.toAll.update(input, light, casters_, receivers_, largestFirst_);
     relevantChanged = history.toAll.changed();
@@ -197,7 +203,9 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
     for (std::uint32_t i = 0; i < known_.size(); ++i)
       history.relevant[i] = history.toAll.canShadow(i) ? 1 : 0;
   }
-  for (const Relevance::Apart& apart : history.toAll.apart()) skipCaster(apart.caster, apart.reason);
+  if (!input.receiversUnknown) {
+    for (const Relevance::Apart& apart : history.toAll.apart()) skipCaster(apart.caster, apart.reason);
+  }
   if (objectsListed_ || history.drawn.size() != known_.size()) {
     history.drawn.assign(known_.size(), 0);
     for (std::uint32_t i = 0; i < known_.size(); ++i)
@@ -207,7 +215,8 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
   const std::vector<char>* needed = &history.relevant;
   std::vector<char> neededInView;
-  const bool allVisible = frontToBack_.size() == largestFirst_.size();  // then none can be dropped
+  // Then none can be dropped.
+  const bool allVisible = input.receiversUnknown || frontToBack_.size() == largestFirst_.size();
   if ((dynamic || history.reduced) && !allVisible) {
     history.toVisible.update(input, light, history.relevant, visible_, largestFirst_);
     neededInView.resize(known_.size());

@@ -42,6 +42,8 @@ struct FrameInput {
   std::span<const std::uint64_t> lightRevisions;
   /// By which lights are known from frame to frame, and named; none: their places.
   std::span<const std::uint32_t> lightNumbers;
+  /// Surfaces that are no object receive too: every caster may shadow one.
+  bool receiversUnknown = false;
 };
 
 struct LightPlan {
@@ -72,6 +74,8 @@ class FramePlanner {
  public:
   FramePlanner();
   ~FramePlanner();
+  FramePlanner(FramePlanner&&) noexcept;
+  FramePlanner& operator=(FramePlanner&&) noexcept;
   FramePlan plan(const FrameInput& input);
   /// Pairs of caster and receiver that were looked at, since it was made.
   std::uint64_t pairsAsked() const;

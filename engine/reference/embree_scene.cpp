@@ -7,6 +7,8 @@
 #include <limits>
 #include <string>
 
+#include "scene/cutout.hpp"
+
 namespace halfshadow::reference {
 namespace {
 /// Half a unit in the last place of a float and of a double near 1, times four: positions pass through a few
@@ -41,12 +43,25 @@ struct SeenTriangle {
                  w = sideC.x * x + sideC.y * y + sideC.z * z;
     return (u >= 0.0 && v >= 0.0 && w >= 0.0) || (u <= 0.0 && v <= 0.0 && w <= 0.0);
   }
+  /// Weights of the corners where the line in this direction passes through; of what is pierced.
+  glm::dvec3 weights(double x, double y, double z) const {
+    const glm::dvec3 d(x, y, z);
+    const glm::dvec3 shares(glm::dot(sideA, d), glm::dot(sideB, d), glm::dot(sideC, d));
+    return shares / (shares.x + shares.y + shares.z);
+  }
   /// Whether the plane is met between the point and point + direction, both excluded.
   bool between(double x, double y, double z) const {
     const double slope = normal.x * x + normal.y * y + normal.z * z;
     return slope * offset > 0.0 && std::abs(offset) < std::abs(slope);
   }
 };
+
+/// Whether something is left of the triangle where the line in this direction meets it.
+bool isThere(const TraceMesh& mesh, std::uint32_t triangle, const SeenTriangle& seen, double x, double y,
+             double z) {
+  if (mesh.cutBy == nullptr) return true;
+  return scene::alphaAt(*mesh.cutBy, triangle, seen.weights(x, y, z)) >= mesh.cutBy->material.alphaCutoff;
+}
 
 /// What callbacks need to know of the rays; Embree hands its context through.
 struct OcclusionContext {
@@ -105,6 +120,7 @@ TraceSpace traceSpaceOf(const scene::SceneDescription& scene) {
 
 TraceMesh traceMeshOf(const scene::SceneObject& object, const TraceSpace& space) {
   TraceMesh mesh;
+  if (object.material.alphaCutoff > 0.0f) mesh.cutBy = &object;
   mesh.indices = object.mesh->indices;
   mesh.positions.reserve(object.mesh->positions.size());
   mesh.rounding.reserve(object.mesh->positions.size());
@@ -141,7 +157,8 @@ void EmbreeScene::occludedBy(const RTCOccludedFunctionNArguments* arguments) {
   bool any = false;
   const auto meets = [&](std::size_t ray) {
     return seen.pierced(rays.x[ray], rays.y[ray], rays.z[ray]) &&
-           seen.between(rays.x[ray], rays.y[ray], rays.z[ray]);
+           seen.between(rays.x[ray], rays.y[ray], rays.z[ray]) &&
+           isThere(mesh, arguments->primID, seen, rays.x[ray], rays.y[ray], rays.z[ray]);
   };
   for (unsigned i = 0; i < arguments->N; ++i) {
     met[i] = arguments->valid[i] != 0 && meets(RTCRayN_id(arguments->ray, arguments->N, i));
@@ -161,6 +178,7 @@ void EmbreeScene::intersectWith(const RTCIntersectFunctionNArguments* arguments)
   const SeenTriangle seen(cornersOf(geometry.mesh, arguments->primID), context.origin);
   const double slope = glm::dot(seen.normal, d);
   if (slope == 0.0 || !seen.pierced(d.x, d.y, d.z)) return;
+  if (!isThere(geometry.mesh, arguments->primID, seen, d.x, d.y, d.z)) return;
   const double distance = seen.offset / slope;
   if (distance < context.nearest || distance > context.best.distance) return;
   // Of two surfaces in one place the first in the scene is seen, as it is where depth tests keep the first.

@@ -38,6 +38,8 @@ struct TraceMesh {
   /// How far from where it was meant each position may lie, since the file holds it in single precision.
   std::vector<double> rounding;
   std::vector<std::uint32_t> indices;
+  /// Whose alpha cuts holes into it, or null; lives as long as the tracer.
+  const scene::SceneObject* cutBy = nullptr;
 };
 
 TraceMesh traceMeshOf(const scene::SceneObject& object, const TraceSpace& space);
@@ -69,9 +71,10 @@ class EmbreeScene {
   /// `reach`: no ray starts farther than this from the origin of trace space.
   static Result<EmbreeScene> build(std::vector<TraceMesh> meshes, double reach);
 
-  /// How many of the packet's rays meet a triangle between their two ends. A triangle all of whose corners
-  /// lie in the plane of the origin's facet, but for the rounding of their coordinates, is met by none: it is
-  /// that facet, its continuation, or another surface in the same place.
+  /// Rays pass through the holes that alpha cuts. How many of the packet's rays meet a triangle between their
+  /// two ends. A triangle all of whose corners lie in the plane of the origin's facet, but for the rounding
+  /// of their coordinates, is met by none: it is that facet, its continuation, or another surface in the same
+  /// place.
   std::size_t occluded(const RayOrigin& origin, const RayPacket& rays) const;
 
   /// The nearest triangle at distances in [nearest, farthest] along a unit vector; false when there is none.

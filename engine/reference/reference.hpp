@@ -59,14 +59,14 @@ struct ReferenceOptions {
 int tracedSamples(int samples);
 
 /// Visibility at every pixel: the share of the light's *area* (not weighted by any cosine) that no caster
-/// hides, 1 where kind is kNoReceiver and behind the light's plane, where it sends nothing that could be
-/// hidden. A triangle that lies in the plane of the receiver's facet as far as single precision tells does
-/// not hide it: that facet, its continuation, or a second surface in the same place. All else is decided in
-/// double precision, so neither the extent of the scene nor the place of anything else matters. A light of
-/// size zero gives 0 or 1. Unbiased; equal for equal seed whatever the number of threads. Errors:
-/// invalidArgument (samples not in 1 … 2^24, vectors of the wrong length), invalidLight (NaN or infinite),
-/// outOfMemory, internal (Embree refused to start). Based on: Mitchell, Consequences of Stratified Sampling
-/// in Graphics, 1996, for jittered strata.
+/// hides (through holes that alpha cuts, light passes), 1 where kind is kNoReceiver and behind the light's
+/// plane, where it sends nothing that could be hidden. A triangle that lies in the plane of the receiver's
+/// facet as far as single precision tells does not hide it: that facet, its continuation, or a second surface
+/// in the same place. All else is decided in double precision, so neither the extent of the scene nor the
+/// place of anything else matters. A light of size zero gives 0 or 1. Unbiased; equal for equal seed whatever
+/// the number of threads. Errors: invalidArgument (samples not in 1 … 2^24, vectors of the wrong length),
+/// invalidLight (NaN or infinite), outOfMemory, internal (Embree refused to start). Based on: Mitchell,
+/// Consequences of Stratified Sampling in Graphics, 1996, for jittered strata.
 Result<std::vector<float>> traceVisibility(const scene::SceneDescription& scene,
                                            const scene::AreaLight& light, const ReceiverImage& receivers,
                                            const ReferenceOptions& options);

@@ -20,6 +20,10 @@ struct Bounds {
   void include(const Bounds& other) {
     if (!other.empty()) low = glm::min(low, other.low), high = glm::max(high, other.high);
   }
+  bool meets(const Bounds& other, double margin = 0.0) const {
+    return glm::all(glm::lessThanEqual(low - margin, other.high)) &&
+           glm::all(glm::lessThanEqual(other.low - margin, high));
+  }
   glm::dvec3 center() const { return (low + high) * 0.5; }
   double radius() const { return empty() ? 0.0 : glm::length(high - low) * 0.5; }
   std::array<glm::dvec3, 8> corners() const;

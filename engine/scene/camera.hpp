@@ -17,6 +17,7 @@ struct Camera {
   double verticalFovRadians = 0.8;
   double nearDistance = 0.1;  ///< along the view axis, > 0
   double farDistance = 1000.0;
+  double leastNearDistance = 0.0;  ///< what is nearer is not meant to be seen; only who fits `near` reads it
 };
 
 /// invalidCamera when NaN, eye equals target, field of view outside (0, π), or near/far not 0 < near < far.

@@ -24,6 +24,9 @@ struct AreaLight {
   /// World units; 0: the intensity is the same at every distance. Never taken from what the scene holds, so
   /// that nothing but the light and the place of a surface decides how bright that is lit.
   double referenceDistance = 0.0;
+  /// Half angles about `emission` of a spot: full light inside the inner, none outside the outer cone; an
+  /// outer angle of 0: no cone. 0 <= inner < outer <= pi / 2. Of shading alone.
+  double innerConeRadians = 0.0, outerConeRadians = 0.0;
 
   bool operator==(const AreaLight&) const = default;
 };

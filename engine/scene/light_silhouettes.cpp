@@ -126,6 +126,18 @@ void LightSilhouettes::append(const LightSilhouettes& other) {
   }
 }
 
+void LightSilhouettes::addLoop(std::span<const glm::dvec3> loop) {
+  loops.push_back({static_cast<std::uint32_t>(points.size()), static_cast<std::uint32_t>(loop.size())});
+  points.insert(points.end(), loop.begin(), loop.end());
+}
+
+void LightSilhouettes::addCaster(const LightSilhouettes& other, Caster entry) {
+  const std::uint32_t first = entry.firstLoop;
+  entry.firstLoop = static_cast<std::uint32_t>(loops.size());
+  for (std::uint32_t l = first; l < first + entry.loopCount; ++l) addLoop(other.loopPoints(l));
+  casters.push_back(entry);
+}
+
 void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& plane, double sourceA,
                       double sourceB, double minHeight, LightSilhouettes& result, LayerSplit split) {
   result.clear();

@@ -81,6 +81,12 @@ struct LightSilhouettes {
 
   void clear();
   void append(const LightSilhouettes& other);  ///< all but the counters
+  std::span<const glm::dvec3> loopPoints(std::uint32_t loop) const {
+    return std::span(points).subspan(loops[loop].first, loops[loop].count);
+  }
+  void addLoop(std::span<const glm::dvec3> loop);
+  /// Appends an entry of `other`, which is not this one, with its loops.
+  void addCaster(const LightSilhouettes& other, Caster entry);
 };
 
 /// How often one entry may cover the same ground, seen from the source point. A caster that hides parts of

@@ -146,6 +146,10 @@ Result<TriangleMesh> buildMesh(const MeshView& view) {
     const auto* t = reinterpret_cast<const glm::vec2*>(view.texcoords);
     mesh.texcoords.assign(t, t + view.vertexCount);
   }
+  if (view.colors != nullptr) {
+    const auto* c = reinterpret_cast<const glm::vec4*>(view.colors);
+    mesh.colors.assign(c, c + view.vertexCount);
+  }
   const std::vector<EdgeUse> uses = weldedEdgeUses(mesh);
   mendWindings(mesh, uses);
   countEdges(mesh, uses);

@@ -16,8 +16,8 @@ namespace halfshadow::scene {
 /// A caller's triangle list, read once by buildMesh and never kept.
 /// `positions`: vertexCount × 3 floats, object space, scene units; `positionStrideBytes` from one vertex to
 /// the next (>= 12). `indices`: indexCount entries, a multiple of 3, in either winding; null = 0, 1, 2, … (as
-/// many as indexCount says, or all vertices when that is 0). `normals` (unit, optional)
-/// and `texcoords` (optional) are tightly packed, vertexCount entries each.
+/// many as indexCount says, or all vertices when that is 0). `normals` (unit, optional),
+/// `texcoords` and `colors` (optional) are tightly packed, vertexCount entries each.
 struct MeshView {
   const float* positions = nullptr;
   std::size_t positionStrideBytes = 12;
@@ -26,6 +26,7 @@ struct MeshView {
   std::size_t indexCount = 0;
   const float* normals = nullptr;    ///< vertexCount × 3 or null
   const float* texcoords = nullptr;  ///< vertexCount × 2 or null
+  const float* colors = nullptr;     ///< vertexCount × 4, linear, or null
 };
 
 /// What checking a mesh found.
@@ -47,6 +48,7 @@ struct TriangleMesh {
   std::vector<std::uint32_t> indices;
   std::vector<glm::vec3> normals;    ///< empty or one per vertex
   std::vector<glm::vec2> texcoords;  ///< empty or one per vertex
+  std::vector<glm::vec4> colors;     ///< empty or one per vertex
   std::vector<std::uint32_t> weldedVertex;
   std::vector<std::uint32_t> shellOf;  ///< per triangle: its closed shell, or kNoShell
   std::uint32_t shellCount = 0;

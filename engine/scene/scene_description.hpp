@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "halfshadow/types.hpp"
 #include "scene/bounds.hpp"
 #include "scene/camera.hpp"
 #include "scene/light.hpp"
@@ -25,9 +26,20 @@ struct Image {
   std::vector<std::uint8_t> pixels;
 };
 
+/// How an image is read between its texels and beyond its borders.
+struct ImageSampling {
+  ImageWrap wrapU = ImageWrap::repeat, wrapV = ImageWrap::repeat;
+  ImageFilter filter = ImageFilter::linear;
+  bool operator==(const ImageSampling&) const = default;
+};
+
 struct Material {
   glm::vec4 baseColor{0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
   std::shared_ptr<const Image> baseColorImage;  ///< null = plain colour
+  ImageSampling sampling;
+  /// Above 0: where the alpha of base colour, image and vertex colour together is less, there is nothing:
+  /// nothing is seen there, and no shadow falls from there. 0: all of it is there.
+  float alphaCutoff = 0.0f;
   bool doubleSided = false;
 };
 

@@ -24,7 +24,7 @@ class LayerSplitter {
     std::vector<CoveredLevels::Level> levels;
     const bool encloses = std::ranges::any_of(entries, &LightSilhouettes::Caster::enclosesLight);
     if (encloses || !findLevels(entries, levels) || (entries.size() == 1 && levels.size() <= 1)) {
-      for (const LightSilhouettes::Caster& entry : entries) copy(entry, out);
+      for (const LightSilhouettes::Caster& entry : entries) out.addCaster(source_, entry);
       return;
     }
     if (split == LayerSplit::outline) levels.resize(std::min<std::size_t>(levels.size(), 1));
@@ -34,11 +34,11 @@ class LayerSplitter {
       return;
     }
     const std::size_t first = out.casters.size();
-    copy(entries[0], out);
+    out.addCaster(source_, entries[0]);
     out.casters[first].layerCount = static_cast<std::uint32_t>(levels.size());
     for (const CoveredLevels::Level& level : levels) emit(entries, level, out);
     for (const LightSilhouettes::Caster& entry : entries.subspan(1)) {
-      copy(entry, out);
+      out.addCaster(source_, entry);
       out.casters.back().layersBefore = true;
     }
   }
@@ -50,13 +50,9 @@ class LayerSplitter {
     for (const LightSilhouettes::Caster& entry : entries) {
       const auto side = entry.turnedAway ? CoveredLevels::Side::away : CoveredLevels::Side::towards;
       for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l)
-        arrangement_.addLoop(points(l), entry.part - entries[0].part, side);
+        arrangement_.addLoop(source_.loopPoints(l), entry.part - entries[0].part, side);
     }
     return arrangement_.find(levels);
-  }
-
-  std::span<const glm::dvec3> points(std::uint32_t loop) const {
-    return std::span(source_.points).subspan(source_.loops[loop].first, source_.loops[loop].count);
   }
 
   static void dropSmallLoops(std::vector<CoveredLevels::Level>& levels) {
@@ -69,12 +65,6 @@ class LayerSplitter {
       std::erase_if(levels[i], [&](const CoveredLevels::Loop& loop) { return std::abs(loop.area) < least; });
     }
     while (levels.size() > 1 && levels.back().empty()) levels.pop_back();
-  }
-
-  static void append(std::span<const glm::dvec3> points, LightSilhouettes& out) {
-    out.loops.push_back(
-        {static_cast<std::uint32_t>(out.points.size()), static_cast<std::uint32_t>(points.size())});
-    out.points.insert(out.points.end(), points.begin(), points.end());
   }
 
   static void emit(std::span<const LightSilhouettes::Caster> entries, const CoveredLevels::Level& level,
@@ -90,20 +80,13 @@ class LayerSplitter {
     entry.low = glm::vec3(1e30f);
     entry.high = glm::vec3(-1e30f);
     for (const CoveredLevels::Loop& loop : level) {
-      append(loop.points, out);
+      out.addLoop(loop.points);
       for (const glm::dvec3& p : loop.points) {
         entry.low = glm::min(entry.low, glm::vec3(p));
         entry.high = glm::max(entry.high, glm::vec3(p));
       }
     }
     out.casters.push_back(entry);
-  }
-
-  void copy(LightSilhouettes::Caster caster, LightSilhouettes& out) const {
-    const std::uint32_t firstLoop = caster.firstLoop;
-    caster.firstLoop = static_cast<std::uint32_t>(out.loops.size());
-    for (std::uint32_t l = firstLoop; l < firstLoop + caster.loopCount; ++l) append(points(l), out);
-    out.casters.push_back(caster);
   }
 
   const LightSilhouettes& source_;

@@ -19,12 +19,13 @@ constexpr double kMargin = 1.125;
 struct Corner {
   glm::dvec3 position{0.0}, normal{0.0};
   glm::dvec2 texcoord{0.0};
+  glm::dvec4 color{0.0};
   glm::dvec4 clip{0.0};
 };
 
 Corner between(const Corner& a, const Corner& b, double at) {
   return {glm::mix(a.position, b.position, at), glm::mix(a.normal, b.normal, at),
-          glm::mix(a.texcoord, b.texcoord, at), glm::mix(a.clip, b.clip, at)};
+          glm::mix(a.texcoord, b.texcoord, at), glm::mix(a.color, b.color, at), glm::mix(a.clip, b.clip, at)};
 }
 
 /// Sutherland, Hodgman, "Reentrant polygon clipping", 1974; in homogeneous coordinates.
@@ -70,6 +71,7 @@ class Builder {
       result_.positions.push_back(source_.positions[v]);
       if (!source_.normals.empty()) result_.normals.push_back(source_.normals[v]);
       if (!source_.texcoords.empty()) result_.texcoords.push_back(source_.texcoords[v]);
+      if (!source_.colors.empty()) result_.colors.push_back(source_.colors[v]);
       result_.indices.push_back(static_cast<std::uint32_t>(result_.indices.size()));
     }
   }
@@ -77,6 +79,7 @@ class Builder {
     result_.positions.emplace_back(corner.position);
     if (!source_.normals.empty()) result_.normals.emplace_back(corner.normal);
     if (!source_.texcoords.empty()) result_.texcoords.emplace_back(corner.texcoord);
+    if (!source_.colors.empty()) result_.colors.emplace_back(corner.color);
     result_.indices.push_back(static_cast<std::uint32_t>(result_.indices.size()));
   }
   Corner corner(std::uint32_t v, const glm::dmat4& clipFromObject) const {
@@ -84,6 +87,7 @@ class Builder {
     return {.position = position,
             .normal = source_.normals.empty() ? glm::dvec3(0.0) : glm::dvec3(source_.normals[v]),
             .texcoord = source_.texcoords.empty() ? glm::dvec2(0.0) : glm::dvec2(source_.texcoords[v]),
+            .color = source_.colors.empty() ? glm::dvec4(0.0) : glm::dvec4(source_.colors[v]),
             .clip = clipFromObject * glm::dvec4(position, 1.0)};
   }
   TriangleMesh take() { return std::move(result_); }

@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
+#include <optional>
 #include <random>
 
 namespace halfshadow::images {
@@ -24,6 +25,32 @@ void configureOnce() {
   }();
   static_cast<void>(configured);
 }
+
+/// A copy on disk of what is in memory, for readers that want a name.
+class TemporaryFile {
+ public:
+  TemporaryFile(std::span<const std::uint8_t> bytes, const char* extension) {
+    std::error_code failure;
+    path_ = std::filesystem::temp_directory_path(failure) /
+            ("halfshadow-" + std::to_string(std::random_device{}()) + "." + extension);
+    std::ofstream stream(path_, std::ios::binary);
+    stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    stream.close();
+    written_ = !failure && static_cast<bool>(stream);
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  bool written() const { return written_; }
+
+ private:
+  std::filesystem::path path_;
+  bool written_ = false;
+};
 
 Error notWritable(const std::filesystem::path& path, const std::string& why) {
   return Error{ErrorCode::fileNotWritable, "cannot write '" + path.string() + "': " + why +
@@ -119,6 +146,34 @@ Result<FloatImage> readImage(const std::filesystem::path& path) {
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, image.pixels.data())) {
     return malformed(input->geterror());
   }
+  return image;
+}
+
+Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* format) {
+  configureOnce();
+  const auto failed = [format](const std::string& why) {
+    return Error{ErrorCode::fileMalformed, std::string("OpenImageIO cannot decode it as ") + format + ": " +
+                                               (why.empty() ? "unknown format" : why)};
+  };
+  OIIO::Filesystem::IOMemReader memory(const_cast<std::uint8_t*>(file.data()), file.size());
+  std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(format);
+  if (!input) return failed(OIIO::geterror());
+  OIIO::ImageSpec asStored, opened;
+  asStored.attribute("oiio:UnassociatedAlpha", 1);
+  // OpenImageIO 2.4 reads WebP from named files only.
+  std::optional<TemporaryFile> named;
+  if (!input->supports("ioproxy") || !input->set_ioproxy(&memory)) {
+    named.emplace(file, format);
+    if (!named->written()) return failed("the folder for temporary files cannot be written to");
+  }
+  if (!input->open(named ? named->path().string() : std::string("memory.") + format, opened, asStored))
+    return failed(input->geterror());
+  const OIIO::ImageSpec& spec = input->spec();
+  if (spec.image_pixels() == 0 || spec.nchannels < 3) return failed("it has no colours");
+  ByteImage image{.width = spec.width, .height = spec.height, .channels = std::min(spec.nchannels, 4)};
+  image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(image.channels));
+  if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data()))
+    return failed(input->geterror());
   return image;
 }
 

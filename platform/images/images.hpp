@@ -29,6 +29,14 @@ struct FloatImage {
 /// Errors: fileNotFound, fileMalformed.
 Result<FloatImage> readImage(const std::filesystem::path& path);
 
+/// 8 bits a channel, row 0 on top, not premultiplied.
+struct ByteImage {
+  int width = 0, height = 0, channels = 0;  ///< channels: 3 or 4
+  std::vector<std::uint8_t> pixels;
+};
+/// Decodes a file held in memory; `format` is OpenImageIO's name of it, e.g. "webp". Errors: fileMalformed.
+Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* format);
+
 /// Writes 32-bit float OpenEXR (lossless). The image's own channelNames are used; when it has none,
 /// "V" for one channel and R, G, B, A for up to four. OpenEXR stores channels sorted by name.
 /// Errors: invalidArgument (sizes disagree), fileNotWritable.

@@ -16,6 +16,10 @@
 #include "list/vbuffer_walk.glsl"
 #include "list/vbuffer_targets.glsl"
 
+#if HS_BLEND >= 3
+uniform HS_HIGHP float u_keepAll;  // 1 while the program is proven to draw
+#endif
+
 HS_Occlusion hs_ofCaster() {
   HS_HIGHP vec2 at;
   HS_HIGHP vec3 origin;
@@ -78,7 +82,7 @@ void main() {
   gl_FragColor = sides;
 #else
   // Volumes of other casters lie before the same receivers.
-  if (max(max(caster.share.x, caster.share.y), max(caster.share.z, caster.share.w)) <= 0.0) discard;
+  if (max(max(caster.share.x, caster.share.y), max(caster.share.z, caster.share.w)) <= -u_keepAll) discard;
 #ifdef HS_MERGED
   caster = hs_mergedCentre(caster);
 #endif

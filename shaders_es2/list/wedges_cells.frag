@@ -19,4 +19,5 @@ float halfshadow_visibility() { return 0.25 * hs_gatheredLight(); }
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"

@@ -11,25 +11,35 @@ HS_HIGHP vec2 hs_searchTap(HS_HIGHP vec2 texel, HS_HIGHP float plane, HS_HIGHP f
   return (1.0 - step(min(plane, 0.0) - bias, gap)) * vec2(1.0, gap);
 }
 
-// asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker to receiver.
+// asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker
+// to receiver.
 HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 width = max(asked, vec2(1.0));
   HS_HIGHP vec2 gradient = hs_gradient * width;
   HS_Places places = hs_firstPlaces(side);
   HS_HIGHP vec2 found = vec2(0.0);
+#ifdef HS_SHORT
+  HS_HIGHP float count = places.turns;
+#else
+  HS_HIGHP float count = side * side;
   if (places.center > 0.5) found = hs_searchTap(hs_texel, 0.0, bias);
+#endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
     if (places.turns < 0.5) break;
     HS_HIGHP vec2 offset = places.place * width;
+#ifdef HS_SHORT
+    found += hs_searchTap(hs_texel + offset, dot(gradient, places.place), bias);
+#else
     HS_HIGHP vec2 turned = vec2(-places.place.y, places.place.x) * width;
     HS_HIGHP float plane = dot(gradient, places.place);
     HS_HIGHP float turnedPlane = gradient.y * places.place.x - gradient.x * places.place.y;
     found += hs_searchTap(hs_texel + offset, plane, bias) + hs_searchTap(hs_texel - offset, -plane, bias) +
              hs_searchTap(hs_texel + turned, turnedPlane, bias) + hs_searchTap(hs_texel - turned, -turnedPlane, bias);
+#endif
     hs_nextPlaces(places);
   }
-  return vec2(found.x / (side * side), -found.y / max(found.x, 1.0));
+  return vec2(found.x / count, -found.y / max(found.x, 1.0));
 }
 
 // The same over what could hold blockers, and again over what the blockers found ask for as long as that is much less: a
@@ -37,14 +47,20 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
 // whose foot the receiver lies. Where the light is wholly beyond such a wall, each search at least halves the gap
 // until the region ends before the foot; regions wider than that let light in along it.
 HS_HIGHP vec2 hs_searchBlockers() {
+#ifdef HS_SHORT
+  return hs_searchTaps(hs_kernel * hs_widestGap, float(HS_SEARCH));
+#else
   HS_HIGHP float asked = hs_widestGap;
-  HS_HIGHP vec2 found = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH));
-  for (int i = 0; i < 4; ++i) {
-    if (found.x <= 0.0 || found.y > 0.75 * asked) break;
-    asked = found.y;
+  HS_HIGHP vec2 found = vec2(0.0);
+  // An end that compilers do not know: unrolled, the searches are more than many devices have room for.
+  HS_HIGHP float last = 3.5 + min(u_map.x, 0.0);
+  for (int i = 0; i < HS_MOST_TURNS; ++i) {
     HS_HIGHP vec2 nearer = hs_searchTaps(hs_kernel * asked, float(HS_SEARCH));
     if (nearer.x <= 0.0) break;
     found = nearer;
+    if (found.y > 0.75 * asked || float(i) > last) break;
+    asked = found.y;
   }
   return found;
+#endif
 }

@@ -8,8 +8,8 @@
 #ifdef HS_DEPTH_PACKED16
 #define HS_Depth vec2
 float hs_gap(HS_HIGHP vec4 stored, HS_Depth receiver) {
-  vec2 bytes = floor(stored.rg * 255.0 + 0.5);
-  vec2 difference = bytes - receiver;
+  // The receiver's bytes are whole numbers: taken off before rounding.
+  vec2 difference = floor(stored.rg * 255.0 + (0.5 - receiver));
   return difference.x + difference.y * (1.0 / 256.0);
 }
 float hs_depthValue(HS_HIGHP vec4 stored) {

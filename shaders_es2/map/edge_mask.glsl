@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
+#define HS_BINARY_CLASS  // a class is 0 or 1 where no filter is needed
 // The paper's mask: zero where no edge lies within the kernel's reach.
 uniform HS_HIGHP sampler2D u_edgeMask;
 
@@ -10,7 +11,6 @@ vec4 hs_edges() {
 
 // 0 or 1 from a single tap away from edges, -1 where the filter decides.
 float hs_maskClass() {
-  if (hs_lightMisses) return 1.0;
-  if (hs_edges().a > 0.0) return -1.0;
-  return hs_hardTap();
+  float edge = hs_edges().a, lit = hs_hardTap();
+  return hs_lightMisses ? 1.0 : (edge > 0.0 ? -1.0 : lit);
 }

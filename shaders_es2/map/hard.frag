@@ -9,11 +9,14 @@ float hs_visibility() { return hs_hardTap(); }
 
 float halfshadow_visibility() {
   hs_prepare();
-  return hs_lightMisses ? 1.0 : hs_meanVisibility();
+  // Fetched whether it is needed or not: inside an `if` it would cost some compilers a thread.
+  float lit = hs_meanVisibility();
+  return hs_lightMisses ? 1.0 : lit;
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

@@ -12,21 +12,29 @@ float hs_shareAbove(HS_HIGHP vec2 gradient, HS_HIGHP float above, HS_HIGHP vec2 
   return hs_shareInside(above, abs(vec2(dot(gradient, u_lightSides.xy), dot(gradient, u_lightSides.zw))) * share);
 }
 
-// Of the whole light.
+// Of the whole light. HS_SHORT: horizons are left out.
 float hs_lightAbove() {
+#ifdef HS_SHORT
+  return 1.0;
+#else
 #ifdef HS_SUB_LIGHTS_U
   HS_HIGHP vec2 gradient = hs_centerGradient;
 #else
   HS_HIGHP vec2 gradient = hs_gradient;
 #endif
   return u_receiver.x > 0.0 ? 1.0 - u_receiver.x * (1.0 - hs_shareAbove(gradient, 1.0, vec2(1.0))) : 1.0;
+#endif
 }
 
 #ifdef HS_SUB_LIGHTS_U
 // Of the sub-light that was entered.
 float hs_subLightAbove() {
+#ifdef HS_SHORT
+  return 1.0;
+#else
   if (u_receiver.x <= 0.0) return 1.0;
   HS_HIGHP vec2 share = vec2(1.0 / float(HS_SUB_LIGHTS_U), 1.0 / float(HS_SUB_LIGHTS_V));
   return 1.0 - u_receiver.x * (1.0 - hs_shareAbove(hs_centerGradient, hs_turned, share));
+#endif
 }
 #endif

@@ -3,13 +3,43 @@
 // Percentage closer filtering over HS_KERNEL x HS_KERNEL neighbouring texels, all taps at texel centres, so
 // that the receiver plane is compared exactly where depth was sampled.
 // Based on: Reeves, Salesin, Cook, "Rendering Antialiased Shadows with Depth Maps", 1987, section 4.
+#if HS_KERNEL == 4
+// Few taps are fetched whether they are needed or not: inside an `if` they would cost some compilers a thread.
+#define HS_FETCHES_ALWAYS
+#endif
+
 float hs_pcfGrid() {
   HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
   // First texel centre of the kernel that is centred on the receiver.
   HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
   HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
   float lit = 0.0;
-#if HS_KERNEL <= 8
+#if HS_KERNEL == 4 && !defined(HS_SUB_LIGHTS_U)
+  // Row by row; what all taps of a row have in common is added up once.
+  HS_HIGHP vec2 uv = first * u_map.y;
+#ifdef HS_DEPTH_PACKED16
+  HS_HIGHP vec4 plane = planeFirst + hs_gradient.x * vec4(0.0, 1.0, 2.0, 3.0);
+  for (int y = 0; y < 4; ++y) {
+    vec4 least = min(plane, 0.0) - bias;
+    lit += step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver));
+    lit += step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
+    lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
+    lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+#else
+  HS_HIGHP float least = -bias;
+  HS_HIGHP float plane = planeFirst - bias;
+  for (int y = 0; y < 4; ++y) {
+    HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
+    lit += step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver));
+    lit += step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
+    lit += step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
+    lit += step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+#endif
+    HS_COUNT(4);
+    uv.y += u_map.y;
+    plane += hs_gradient.y;
+  }
+#elif HS_KERNEL <= 8
   for (int y = 0; y < HS_KERNEL; ++y) {
     for (int x = 0; x < HS_KERNEL; ++x) {
       HS_HIGHP vec2 offset = vec2(float(x), float(y));

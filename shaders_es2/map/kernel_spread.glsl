@@ -8,10 +8,18 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
   HS_Places places = hs_firstPlaces(side);
   HS_HIGHP vec2 gradient = hs_gradient * width;
   float lit = 0.0;
+#ifdef HS_SHORT
+  HS_HIGHP float count = places.turns;
+#else
+  HS_HIGHP float count = side * side;
   if (places.center > 0.5) lit = hs_lit(hs_texel, hs_receiver, 0.0, bias);
+#endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
     if (places.turns < 0.5) break;
     HS_HIGHP vec2 offset = places.place * width;
+#ifdef HS_SHORT
+    lit += hs_lit(hs_texel + offset, hs_receiver, dot(gradient, places.place), bias);
+#else
     HS_HIGHP vec2 turned = vec2(-places.place.y, places.place.x) * width;
     HS_HIGHP float plane = dot(gradient, places.place);
     HS_HIGHP float turnedPlane = gradient.y * places.place.x - gradient.x * places.place.y;
@@ -19,9 +27,10 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
            hs_lit(hs_texel - offset, hs_receiver, -plane, bias) +
            hs_lit(hs_texel + turned, hs_receiver, turnedPlane, bias) +
            hs_lit(hs_texel - turned, hs_receiver, -turnedPlane, bias);
+#endif
     hs_nextPlaces(places);
   }
-  return lit / (side * side);
+  return lit / count;
 }
 
 // The same for HS_SPREAD_KERNEL taps a side, or a texel a tap where that is less: more would read them again.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Depth of casters as seen from the light: 1 - near/z, affine in reciprocal depth, so that planes stay planes.
+#include "receiver/alpha_mask_vertex.glsl"
 attribute highp vec3 a_position;
 uniform highp mat4 u_mapClipFromObject;
 #ifdef HS_DEPTH_PACKED16
@@ -13,6 +14,7 @@ uniform highp vec2 u_depthOfDistance;
 #endif
 
 void main() {
+  hs_passSurface();
   gl_Position = u_mapClipFromObject * vec4(a_position, 1.0);
 #ifdef HS_DEPTH_PACKED16
   highp float depthTimesZ = u_depthOfDistance.x * gl_Position.w - u_depthOfDistance.y;

@@ -16,11 +16,17 @@ float hs_visibility() { return hs_pcf(); }
 
 float halfshadow_visibility() {
   hs_prepare();
+#ifdef HS_FETCHES_ALWAYS
+  float lit = hs_meanVisibility();
+  return hs_lightMisses ? 1.0 : lit;
+#else
   return hs_lightMisses ? 1.0 : hs_meanVisibility();
+#endif
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

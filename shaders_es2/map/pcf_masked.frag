@@ -25,7 +25,12 @@ float halfshadow_class() {
 float halfshadow_visibility() {
   hs_prepare();
 #ifdef HS_PHASE_FILTER
+#ifdef HS_FETCHES_ALWAYS
+  float lit = hs_pcf();
+  return hs_lightMisses ? 1.0 : lit;
+#else
   return hs_lightMisses ? 1.0 : hs_pcf();
+#endif
 #else
   float known = hs_maskClass();
 #ifdef HS_SKIP_LOOP
@@ -41,5 +46,6 @@ float halfshadow_visibility() {
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

@@ -14,7 +14,7 @@
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
 #include "map/blocker_pyramid.glsl"
-#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH)
+#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH) || defined(HS_SHORT)
 #include "map/blocker_search.glsl"
 #endif
 uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band
@@ -22,7 +22,7 @@ uniform HS_HIGHP vec4 u_kernels;  // sides of the three kernels, narrow to wide
 
 HS_HIGHP vec2 hs_penumbraWidth() {
   HS_HIGHP float widest = max(hs_kernel.x, hs_kernel.y);
-#ifdef HS_CASTING_RECEIVER
+#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT)
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
   HS_HIGHP vec2 found = hs_searchBlockers();
   if (found.x <= 0.0) return vec2(-1.0);
@@ -47,5 +47,6 @@ float hs_filter(HS_HIGHP vec2 width) {
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

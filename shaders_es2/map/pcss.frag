@@ -29,5 +29,6 @@ float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(1.0))
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

@@ -13,12 +13,12 @@
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
 #include "map/blocker_pyramid.glsl"
-#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH)
+#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH) || defined(HS_SHORT)
 #include "map/blocker_search.glsl"
 #endif
 
 HS_HIGHP vec2 hs_penumbraWidth() {
-#ifdef HS_CASTING_RECEIVER
+#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT)
   // A receiver that is in the map would take its own surface for a blocker in any mean over a region.
   HS_HIGHP vec2 found = hs_searchBlockers();
   return found.x > 0.0 ? hs_kernel * found.y : vec2(-1.0);
@@ -34,5 +34,6 @@ float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(1.0))
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

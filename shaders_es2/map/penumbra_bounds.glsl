@@ -53,7 +53,12 @@ float hs_maskClass() {
   HS_HIGHP float gapHigh = 0.0;
   HS_HIGHP float reach = 0.0;
   HS_HIGHP float asked = -1.0;
+  // HS_SHORT: the first look alone.
+#ifdef HS_SHORT
+  for (int i = 0; i < 1; ++i) {
+#else
   for (int i = 0; i < 2; ++i) {
+#endif
     reach = halfWidth * hs_widestGap + apart;
     HS_HIGHP float level = hs_boundsLevel(reach);
     if (level == asked) break;

@@ -7,8 +7,14 @@
 // other that leaves no few of them close together: of 900 choices of share and start the best on straight edges of all
 // directions and on corners, for 3 to 9 a side.
 
+// HS_SHORT: one place a turn and none in the middle, for devices that have no room for more.
+
 // More turns than 17 a side take, and more than compilers unroll: programs stay small.
+#ifdef HS_SHORT
+#define HS_MOST_TURNS 384
+#else
 #define HS_MOST_TURNS 96
+#endif
 
 struct HS_Places {
   HS_HIGHP float turns;   // that are left
@@ -16,9 +22,14 @@ struct HS_Places {
   HS_HIGHP vec2 place;    // of this turn, in sides of the rectangle from its middle; the others by quarter turns
   HS_HIGHP vec2 outward;  // to the next one
   HS_HIGHP vec2 wrap;     // x: end of the second axis, y: length
+#ifdef HS_SHORT
+  HS_HIGHP float quarter;  // of the four, the turn's
+#endif
 };
 
 HS_Places hs_firstPlaces(HS_HIGHP float side) {
+  // Compilers unroll loops whose end they know: that is more than many devices have room for.
+  side += min(u_map.x, 0.0);
   HS_Places places;
   HS_HIGHP float spacing = 1.0 / (side * side);
   places.turns = floor(0.25 * side * side);
@@ -29,11 +40,23 @@ HS_Places hs_firstPlaces(HS_HIGHP float side) {
   places.place = first + vec2(0.5 * spacing, 0.31315 * range);
   places.outward = vec2(2.0 * spacing, 0.6263 * range);
   places.wrap = vec2(first + range, range);
+#ifdef HS_SHORT
+  places.turns *= 4.0;
+  places.quarter = 0.0;
+#endif
   return places;
 }
 
 void hs_nextPlaces(inout HS_Places places) {
   places.turns -= 1.0;
+#ifdef HS_SHORT
+  places.quarter += 1.0;
+  HS_HIGHP float outward = step(3.5, places.quarter);
+  places.quarter -= 4.0 * outward;
+  places.place = vec2(-places.place.y, places.place.x) + outward * places.outward;
+  places.place.y -= outward * step(places.wrap.x, places.place.y) * places.wrap.y;
+#else
   places.place += places.outward;
   places.place.y -= step(places.wrap.x, places.place.y) * places.wrap.y;
+#endif
 }

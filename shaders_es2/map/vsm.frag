@@ -15,7 +15,10 @@ HS_HIGHP vec2 hs_momentsAt(HS_HIGHP vec2 texel) {
 
 float halfshadow_visibility() {
   hs_prepare();
+  // Four fetches are not worth a fragment that needs none.
+#ifndef HS_MOMENTS_8
   if (hs_lightMisses) return 1.0;
+#endif
 #ifdef HS_MOMENTS_8
   HS_HIGHP vec2 moments = hs_momentsAt(hs_texel);
 #else
@@ -29,13 +32,14 @@ float halfshadow_visibility() {
   // One texel changes the distance by the square of the whole distance times the change of depth.
   HS_HIGHP float slope = (abs(hs_gradient.x) + abs(hs_gradient.y)) * (1.0 + distance) * (1.0 + distance);
   HS_HIGHP float beyond = hs_momentOf(distance) - moments.x - u_momentRange.w - u_bias.z * slope * u_momentRange.y;
-  if (beyond <= 0.0) return 1.0;
   HS_HIGHP float variance = max(moments.y - moments.x * moments.x, u_momentRange.z);
-  return variance / (variance + beyond * beyond);
+  HS_HIGHP float bound = variance / (variance + beyond * beyond);
+  return hs_lightMisses || beyond <= 0.0 ? 1.0 : bound;
 }
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

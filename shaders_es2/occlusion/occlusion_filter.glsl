@@ -18,29 +18,34 @@ HS_HIGHP vec2 hs_tile;          // whose map is read: column and row
 
 #if defined(HS_FILTER_NBUFFER)
 // Levels 0 to 3 at full resolution in a square of four, then samples at an eighth of the kernel's side in a
-// column; five samples of margin around each.
-HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
-  float coarse = max(level - 3.0, 0.0);
-  HS_HIGHP float perSample = exp2(-coarse);
-#ifdef HS_SUB_LIGHTS_U
-  HS_HIGHP vec2 side = ceil(u_tiles.zw * perSample) + 11.0;
-#else
-  HS_HIGHP vec2 side = vec2(u_occlusionLayout.x * perSample + 11.0);
-  HS_HIGHP float fullSide = u_occlusionLayout.x + 11.0;
-#endif
-  float row = step(1.5, level);
+// column; five samples of margin around each. Level 0 lies at texel centres, the means of the others where their texels
+// meet.
+// Where to read a level and the next one: xy and zw.
+HS_HIGHP vec4 hs_levelPlaces(HS_HIGHP vec2 texel, float lower) {
+  vec2 level = vec2(lower, lower + 1.0);
+  vec2 coarse = max(level - 3.0, 0.0);
+  HS_HIGHP vec2 perSample = exp2(-coarse);
+  vec2 row = step(1.5, level), column = step(3.5, level);
 #ifdef HS_SUB_LIGHTS_U
   HS_HIGHP vec2 full = u_tiles.zw + 11.0;
-  HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * full
-                                     : vec2(2.0 * full.x, u_tiles.w - ceil(u_tiles.w * 2.0 * perSample) + 13.0 * (coarse - 1.0));
-  origin = origin * u_tiles.xy + hs_tile * side;
+  HS_HIGHP vec2 sideX = ceil(u_tiles.z * perSample) + 11.0, sideY = ceil(u_tiles.w * perSample) + 11.0;
+  HS_HIGHP vec2 farY = u_tiles.w - ceil(u_tiles.w * 2.0 * perSample) + 13.0 * (coarse - 1.0);
 #else
-  HS_HIGHP vec2 origin = level < 3.5 ? vec2(level - 2.0 * row, row) * fullSide
-                                     : vec2(2.0 * fullSide, u_occlusionLayout.x * (1.0 - 2.0 * perSample) + 11.0 * (coarse - 1.0));
+  HS_HIGHP vec2 full = vec2(u_occlusionLayout.x + 11.0);
+  HS_HIGHP vec2 sideX = u_occlusionLayout.x * perSample + 11.0, sideY = sideX;
+  HS_HIGHP vec2 farY = u_occlusionLayout.x * (1.0 - 2.0 * perSample) + 11.0 * (coarse - 1.0);
 #endif
-  // Level 0 lies at texel centres, the means of the others where their texels meet.
-  HS_HIGHP vec2 local = (level < 0.5 ? texel - 0.5 : texel * perSample) + 5.5;
-  return (origin + clamp(local, vec2(0.5), side - 0.5)) * u_occlusionLayout.yz;
+  HS_HIGHP vec2 originX = mix((level - 2.0 * row) * full.x, vec2(2.0 * full.x), column);
+  HS_HIGHP vec2 originY = mix(row * full.y, farY, column);
+#ifdef HS_SUB_LIGHTS_U
+  originX = originX * u_tiles.x + hs_tile.x * sideX;
+  originY = originY * u_tiles.y + hs_tile.y * sideY;
+#endif
+  HS_HIGHP float finest = lower < 0.5 ? 5.0 : 5.5;
+  HS_HIGHP vec2 middle = vec2(finest, 5.5);
+  HS_HIGHP vec2 x = originX + clamp(texel.x * perSample + middle, vec2(0.5), sideX - 0.5);
+  HS_HIGHP vec2 y = originY + clamp(texel.y * perSample + middle, vec2(0.5), sideY - 0.5);
+  return vec4(x.x, y.x, x.y, y.y) * u_occlusionLayout.yzyz;
 }
 // x: the largest kernel not wider than `width`, y: the share of the next one, twice as wide, for which the mix
 // has the second moment of the kernel wanted.
@@ -128,7 +133,12 @@ vec4 hs_pairsMean(HS_HIGHP sampler2D sums, HS_HIGHP vec2 texel, HS_HIGHP float w
 vec4 hs_squareMean(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   HS_HIGHP vec2 level = hs_levels(width);
   HS_COUNT(2);
+#ifdef HS_FILTER_NBUFFER
+  HS_HIGHP vec4 places = hs_levelPlaces(texel, level.x);
+  return mix(texture2D(levels, places.xy), texture2D(levels, places.zw), level.y);
+#else
   return mix(texture2D(levels, hs_levelPlace(texel, level.x)), texture2D(levels, hs_levelPlace(texel, level.x + 1.0)), level.y);
+#endif
 }
 #if HS_BOXES > 1
 // An elongated light: squares side by side.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Sorts a fragment into its slice.
+#include "receiver/alpha_mask.glsl"
 varying HS_HIGHP vec2 v_slice;
 uniform HS_HIGHP vec4 u_sliceLow;   // of the slice in each channel (HS_SLICE_DEPTH: of two slices, in xy)
 uniform HS_HIGHP vec4 u_sliceHigh;
@@ -34,4 +35,5 @@ void main() {
   gl_FragColor = step(u_sliceLow, vec4(s)) * (1.0 - step(u_sliceHigh, vec4(s)));
 #endif
 #endif
+  hs_cut();
 }

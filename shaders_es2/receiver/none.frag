@@ -6,5 +6,6 @@ float halfshadow_visibility() { return 1.0; }
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"
 #endif
+#include "receiver/alpha_mask.glsl"
 #include "receiver/receiver_main.glsl"
 #endif

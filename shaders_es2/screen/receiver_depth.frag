@@ -3,6 +3,7 @@
 // A number of 5 bits of exponent and 19 of mantissa, split into bytes by integer arithmetic and stored a quarter above
 // the step, so that targets which round and targets which truncate keep all bits that the arithmetic has. Alpha: a mark, or where the facet faces, on its side towards
 // the eye: a point of a grid of 15 x 16 over an octahedron, within 17 degrees.
+#include "receiver/alpha_mask.glsl"
 varying HS_HIGHP float v_distance;
 uniform HS_HIGHP float u_nearestReceiver;  // what is taken off distances
 #ifdef HS_FACET_NORMAL
@@ -57,4 +58,5 @@ void main() {
   float code = u_receiverMark;
 #endif
   gl_FragColor = (vec4(min(high, 255.0), middle, low, code) + 0.25) / 255.0;
+  hs_cut();
 }

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Receivers' distance along the view axis, 1 = the farthest. HS_FACETS: where their facets face; HS_FACET_NORMAL: their
 // facets' planes are known.
+#include "receiver/alpha_mask_vertex.glsl"
 attribute highp vec3 a_position;
 uniform highp mat4 u_clipFromObject;
 uniform highp float u_inverseFarthest;
@@ -19,6 +20,7 @@ varying highp vec3 v_relative;
 invariant gl_Position;
 
 void main() {
+  hs_passSurface();
   highp vec4 position = vec4(a_position, 1.0);
   gl_Position = u_clipFromObject * position;
   v_distance = gl_Position.w * u_inverseFarthest;

@@ -76,8 +76,12 @@ TEST_F(CliTest, ValidateTellsClosedFromOpen) {
   EXPECT_EQ(box["open_casters"], 0);
   EXPECT_EQ(box["caster_parts"], 1);
   EXPECT_EQ(box["repaired_casters"], 0);
-  // One line each for techniques of maps, of volumes and of wedges.
-  EXPECT_EQ(box["techniques"].size(), 3u);
+  // A verdict for each technique that there is.
+  std::set<std::string> judged, known;
+  for (const json& technique : box["techniques"]) judged.insert(technique["id"]);
+  const json all = runJson({"techniques"});
+  for (const json& technique : all["techniques"]) known.insert(technique["id"]);
+  EXPECT_EQ(judged, known);
   const json sheets = runJson({"validate", "builtin:sheets"});
   EXPECT_GT(sheets["open_casters"].get<int>(), 0);
   EXPECT_FALSE(sheets["techniques"].empty());

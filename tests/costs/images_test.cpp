@@ -13,15 +13,14 @@ namespace {
 class Images : public EngineTest {};
 
 std::vector<ImageRecord> imagesOf(const Engine& engine) {
-  std::vector<ImageRecord> images;
-  for (std::size_t i = 0; i < engine.imageCount(); ++i) images.push_back(engine.image(i));
+  std::vector<ImageRecord> images(engine.images(nullptr, 0));
+  engine.images(images.data(), images.size());
   return images;
 }
 
 TEST_F(Images, AreNoneBeforeAFrame) {
   const auto engine = makeEngine();
-  EXPECT_EQ(engine->imageCount(), 0u);
-  EXPECT_EQ(engine->image(0).texture, 0u);
+  EXPECT_EQ(engine->images(nullptr, 0), 0u);
 }
 
 TEST_F(Images, OfEveryTechniqueAreTexturesWithNames) {

@@ -231,16 +231,45 @@ TEST(GltfLights, WithoutASizeTheyArePoints) {
   EXPECT_EQ(description.lights[0].halfU, glm::dvec3(0.0));
 }
 
-TEST(GltfLights, DirectionalLightsStandThreeRadiiAway) {
+TEST(GltfLights, DirectionalLightsAreParallelAndAsWideAsTheSun) {
+  for (const double degrees : {0.0, 2.0}) {
+    GltfWriter writer = quadWriter();
+    writer.json["extensions"] = lightExtension(Json::array({{{"type", "directional"}}}));
+    const double s = std::sqrt(0.5);
+    writer.json["nodes"].push_back({{"translation", {99, 99, 99}},
+                                    {"rotation", {-s, 0, 0, s}},  // shines down
+                                    {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+    if (degrees > 0.0) writer.json["nodes"][1]["extras"] = {{"halfshadow", {{"size", degrees}}}};
+    writer.json["scenes"][0]["nodes"] = {0, 1};
+    const scene::SceneDescription description = loaded(writer);
+    ASSERT_EQ(description.lights.size(), 1u);
+    const scene::AreaLight& sun = description.lights[0];
+    for (const glm::dvec3& corner : {glm::dvec3(0, 0, 0), glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0)}) {
+      const glm::dvec3 way = sun.centerWorld - corner;
+      EXPECT_LT(glm::degrees(std::acos(glm::normalize(way).y)), 0.06) << "the same direction everywhere";
+      const double seen = glm::degrees(2.0 * std::atan(glm::length(sun.halfU) / glm::length(way)));
+      EXPECT_NEAR(seen, degrees > 0.0 ? degrees : 0.53, 0.003);
+    }
+    EXPECT_EQ(sun.referenceDistance, 0.0) << "as bright everywhere";
+  }
+}
+
+TEST(GltfLights, SpotsHaveTheirConesAndPointsShineAtTheScene) {
   GltfWriter writer = quadWriter();
-  writer.json["extensions"] = lightExtension(Json::array({{{"type", "directional"}}}));
+  writer.json["extensions"] = lightExtension(
+      Json::array({{{"type", "spot"}, {"spot", {{"innerConeAngle", 0.2}, {"outerConeAngle", 0.5}}}},
+                   {{"type", "point"}}}));
   writer.json["nodes"].push_back(
-      {{"translation", {99, 99, 99}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
-  writer.json["scenes"][0]["nodes"] = {0, 1};
+      {{"translation", {0.5, 0.5, 4}}, {"extensions", {{"KHR_lights_punctual", {{"light", 0}}}}}});
+  writer.json["nodes"].push_back({{"translation", {0.5, 0.5, -4}},  // its own -z leads away from the quad
+                                  {"extensions", {{"KHR_lights_punctual", {{"light", 1}}}}}});
+  writer.json["scenes"][0]["nodes"] = {0, 1, 2};
   const scene::SceneDescription description = loaded(writer);
-  ASSERT_EQ(description.lights.size(), 1u);
-  // The unit square: centre (.5, .5, 0), radius √½; the light aims along -z.
-  EXPECT_LT(glm::length(description.lights[0].centerWorld - glm::dvec3(.5, .5, 3 * std::sqrt(.5))), kTiny);
+  ASSERT_EQ(description.lights.size(), 2u);
+  EXPECT_DOUBLE_EQ(description.lights[0].innerConeRadians, 0.2);
+  EXPECT_DOUBLE_EQ(description.lights[0].outerConeRadians, 0.5);
+  EXPECT_DOUBLE_EQ(description.lights[1].outerConeRadians, 0.0);
+  EXPECT_LT(glm::length(description.lights[1].emission - glm::dvec3(0, 0, 1)), kTiny);
 }
 
 /// A quad whose node is moved by one animation channel.

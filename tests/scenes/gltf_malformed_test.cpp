@@ -141,8 +141,8 @@ const Damage kDamages[] = {
     {"SceneNodeMissing", [](auto& w) { w.json["scenes"][0]["nodes"] = {6}; }, kMalformed, "node 6"},
     {"DefaultSceneMissing", [](auto& w) { w.json["scene"] = 6; }, kMalformed, "scene 6"},
     {"SingularMatrix",
-     [](auto& w) { w.json["nodes"][0]["matrix"] = {1, 0, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}; },
-     kMalformed, "singular"},
+     [](auto& w) { w.json["nodes"][0]["matrix"] = {0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1}; },
+     ErrorCode::emptyScene, "no triangles"},
     {"ShortMatrix",
      [](auto& w) {
        w.json["nodes"][0]["matrix"] = {1, 0, 0};
@@ -159,8 +159,8 @@ const Damage kDamages[] = {
            {{{"scale", {1e300, 1, 1}}, {"children", {1}}}, {{"mesh", 0}, {"scale", {1e300, 1, 1}}}});
      },
      kMalformed, "node 1"},
-    {"RequiredExtension", [](auto& w) { w.json["extensionsRequired"] = {"KHR_draco_mesh_compression"}; },
-     kMalformed, "KHR_draco"},
+    {"RequiredExtension", [](auto& w) { w.json["extensionsRequired"] = {"EXT_unheard_of"}; }, kMalformed,
+     "EXT_unheard_of"},
     {"LightMissing",
      [](auto& w) {
        w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 3}}}};

@@ -41,6 +41,7 @@ class GltfWriter {
 
   Json json;
   std::vector<unsigned char> bytes;
+  std::vector<Json> furtherBuffers;  ///< behind the one of `bytes`
 
   template <typename T>
   int addView(const std::vector<T>& values, int stride = 0) {
@@ -80,6 +81,7 @@ class GltfWriter {
     std::vector<unsigned char> padded = bytes;
     while (padded.size() % 4 != 0) padded.push_back(0);
     if (!padded.empty()) complete["buffers"] = Json::array({{{"byteLength", padded.size()}}});
+    for (const Json& buffer : furtherBuffers) complete["buffers"].push_back(buffer);
     std::string text = complete.dump();
     while (text.size() % 4 != 0) text += ' ';
     std::string file = "glTF";

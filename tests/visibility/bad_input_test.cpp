@@ -216,11 +216,10 @@ TEST_F(BadInput, FramesBeforeTheirTime) {
   std::vector<std::uint8_t> pixels(4 * kWidth * kHeight);
   expectRefused(empty.engine().readOutput(pixels.data(), pixels.size()), ErrorCode::invalidArgument);
   EXPECT_EQ(empty.engine().outputTexture(), 0u);
-  expectRefused(empty.engine().render(renderer_->desc(), report), ErrorCode::emptyScene);
   const scene::SceneDescription scene = plate_.scene();
   ObjectId id = 0;
   ASSERT_TRUE(empty.engine().addObject(objectDesc(scene.objects.front()), id).ok());
-  expectRefused(empty.engine().render(renderer_->desc(), report), ErrorCode::invalidLight);
+  EXPECT_TRUE(empty.engine().render(renderer_->desc(), report).ok()) << "without a light nothing is shadowed";
   expectRefused(engine().readOutput(pixels.data(), 3), ErrorCode::invalidArgument);
   expectRefused(engine().readOutput(nullptr, pixels.size()), ErrorCode::invalidArgument);
 }

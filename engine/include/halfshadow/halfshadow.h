@@ -5,7 +5,7 @@
  * units, ownership and errors are the same.
  *
  * Every struct begins with `struct_size`: set it to sizeof of the struct. All other fields may be zero; zero
- * means the default where one is given. Messages and reports live until the engine's next call. All calls
+ * means the default where one is given. An engine that is null is refused. Messages and reports live until the engine's next call. All calls
  * come from the thread on which the OpenGL ES context is current.
  */
 #ifndef HALFSHADOW_H
@@ -41,6 +41,7 @@ typedef struct HalfshadowEngineDesc {
   const char* const* forced_off; /* capability names, for testing fallbacks */
   size_t forced_off_count;
   HalfshadowHostState host_state;
+  const char* program_proofs; /* of halfshadow_program_proofs() at an earlier time, or null */
 } HalfshadowEngineDesc;
 
 typedef struct HalfshadowObjectDesc {
@@ -50,10 +51,15 @@ typedef struct HalfshadowObjectDesc {
   uint32_t vertex_count;
   const uint32_t* indices; /* index_count, or null for 0, 1, 2, ... */
   size_t index_count;
-  const float* normals;         /* vertex_count * 3, or null */
-  double world_from_object[16]; /* column-major; all zero = identity */
-  int casts, receives;          /* 0 or 1 */
-  float base_color[4];          /* linear */
+  const float* normals;             /* vertex_count * 3, or null */
+  double world_from_object[16];     /* column-major; all zero = identity */
+  int casts, receives;              /* 0 or 1 */
+  float base_color[4];              /* linear */
+  const float* texcoords;           /* vertex_count * 2, or null */
+  const float* colors;              /* vertex_count * 4, linear, or null */
+  const uint8_t* base_color_pixels; /* sRGB, base_color_channels (3 or 4) a pixel, top row first, or null */
+  int base_color_width, base_color_height, base_color_channels; /* channels 0 = 4 */
+  float alpha_cutoff; /* above 0: nothing is there where alpha is less */
 } HalfshadowObjectDesc;
 
 typedef struct HalfshadowLightDesc {
@@ -63,6 +69,7 @@ typedef struct HalfshadowLightDesc {
   float color[3];
   double intensity;
   double reference_distance; /* where the intensity counts fully; 0 = the same at every distance */
+  double inner_cone_radians, outer_cone_radians; /* of a spot; an outer of 0: no cone */
 } HalfshadowLightDesc;
 
 typedef enum HalfshadowOutput {
@@ -83,6 +90,8 @@ typedef struct HalfshadowRenderDesc {
   HalfshadowOutput output;
   float clear_color[4];
 } HalfshadowRenderDesc;
+
+typedef enum HalfshadowTrim { HALFSHADOW_TRIM_UNUSED = 0, HALFSHADOW_TRIM_EVERYTHING = 1 } HalfshadowTrim;
 
 typedef struct HalfshadowReport {
   size_t struct_size;
@@ -112,7 +121,13 @@ HalfshadowError halfshadow_render(HalfshadowEngine* engine, const HalfshadowRend
                                   HalfshadowReport* report);
 uint32_t halfshadow_output_texture(const HalfshadowEngine* engine);
 HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, size_t byte_count);
+/* Which programs were found to draw, to be kept for the next start; valid until the next call. */
+const char* halfshadow_program_proofs(HalfshadowEngine* engine);
 void halfshadow_context_lost(HalfshadowEngine* engine);
+HalfshadowError halfshadow_context_restored(HalfshadowEngine* engine);
+HalfshadowError halfshadow_trim(HalfshadowEngine* engine, HalfshadowTrim what);
+/* 0: no limit. */
+HalfshadowError halfshadow_set_memory_limit(HalfshadowEngine* engine, uint64_t bytes);
 
 #ifdef __cplusplus
 }

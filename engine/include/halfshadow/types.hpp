@@ -42,6 +42,9 @@ struct EngineDesc {
   HostState hostState = HostState::restore;
   /// Folder that replaces the embedded shaders, or null.
   const char* shaderFolder = nullptr;
+  /// What Engine::programProofs() gave at an earlier time, or null: those programs are not proven again. Of
+  /// another driver, or malformed: as null. Read by create() alone.
+  const char* programProofs = nullptr;
 };
 
 /// A triangle list, copied during the call. Closed shells may be wound either way, even unlike themselves:
@@ -54,7 +57,13 @@ struct MeshDesc {
   std::size_t indexCount = 0;
   const float* normals = nullptr;    ///< vertexCount × 3, unit, or null (facets are shaded flat)
   const float* texcoords = nullptr;  ///< vertexCount × 2, or null
+  const float* colors = nullptr;     ///< vertexCount × 4, linear, multiply the base colour; or null
 };
+
+/// What an image holds beyond its borders.
+enum class ImageWrap { repeat, clampToEdge, mirroredRepeat };
+/// How it is read between its texels.
+enum class ImageFilter { linear, nearest };
 
 struct ObjectDesc {
   MeshDesc mesh;
@@ -64,6 +73,12 @@ struct ObjectDesc {
   float baseColor[4] = {0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
   const std::uint8_t* baseColorPixels = nullptr;  ///< sRGB, baseColorChannels (3 or 4) a pixel, top row first
   int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;
+  ImageWrap baseColorWrapU = ImageWrap::repeat, baseColorWrapV = ImageWrap::repeat;
+  ImageFilter baseColorFilter = ImageFilter::linear;
+  /// Above 0: where the alpha of base colour, image and vertex colour together is less, nothing is there: it
+  /// is not drawn, and casts no shadow. Shadow volumes and wedges take the outline of the whole mesh: their
+  /// frames' reports say so. 0: all of it is there, and alpha means nothing. Not above 1.
+  float alphaCutoff = 0.0f;
 };
 using ObjectId = std::uint32_t;
 
@@ -83,6 +98,9 @@ struct LightDesc {
   /// Where the intensity counts fully, world units; it falls with the square of the distance, up to 4 times
   /// as much near the light. 0: the same at every distance, as of a sun. Only shading reads it.
   double referenceDistance = 0.0;
+  /// Of a spot: half angles about `emission`, radians; full light inside the inner one, none outside the
+  /// outer. An outer angle of 0: no cone. Only shading reads them: visibility is that of the whole light.
+  double innerConeRadians = 0.0, outerConeRadians = 0.0;
 };
 inline constexpr int kMaxLights = 4;
 
@@ -116,11 +134,20 @@ struct TargetDesc {
 
 enum class Timing { off, perPass };
 
+/// Which receivers the light passes are made for. Casters that shadow none of them are left out.
+enum class Receivers {
+  seen,      ///< objects that `camera` sees
+  anywhere,  ///< objects wherever they are: the host draws other views of them from the same frame
+  unknown    ///< also surfaces that the engine was never told of, as far from the light as four times the
+             ///< farthest caster
+};
+
 struct RenderDesc {
   CameraDesc camera;
   TargetDesc target;
   Output output = Output::shaded;
   Timing timing = Timing::off;
+  Receivers receivers = Receivers::seen;
   float clearColor[4] = {0.045f, 0.055f, 0.075f, 1.0f};  ///< of shaded output
 };
 
@@ -170,7 +197,26 @@ struct ForwardRecord {
   const char* fragmentGlsl = "";
   int textureUnits = 0;  ///< that bindForward uses, at most
   bool readsFacetNormal =
-      false;  ///< the host must pass the triangle's normal (derivatives or highp are missing)
+      false;                 ///< the host must pass the triangle's normal (derivatives or highp are missing)
+  std::uint64_t serial = 0;  ///< of the texts, see ForwardSerials::source
+};
+
+/// Numbers to compare with those of the frame before.
+struct ForwardSerials {
+  std::uint64_t source = 0;    ///< changes when the texts do: a program made from others is refused
+  std::uint64_t bindings = 0;  ///< changes when uniforms or textures may have: bindForward is due again
+};
+
+/// What the engine holds on the GPU, for all techniques and objects together.
+struct MemoryRecord {
+  std::uint64_t bytes = 0;       ///< of textures, renderbuffers and buffers, by their formats
+  std::uint64_t limitBytes = 0;  ///< of setMemoryLimit(); 0 = none
+  int textures = 0, renderbuffers = 0, framebuffers = 0, buffers = 0, programs = 0;
+};
+
+enum class Trim {
+  unused,     ///< what the last frame did not need: images of other sizes, programs of other techniques
+  everything  ///< all but meshes and their textures: the next frame makes anew what it needs
 };
 
 struct CapabilityRecord {

@@ -22,6 +22,8 @@ class GpuMesh;
 
 /// Streams of a GpuMesh.
 enum class MeshStreams { positions, facet, shading };
+/// What positions and facets bring along: nothing, or what holes are cut by.
+enum class MeshExtras { none, alpha };
 
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
@@ -32,6 +34,9 @@ struct DrawItem {
   glm::dmat4 worldFromObject{1.0};
   glm::vec4 baseColor{1.0f};
   const gl::Texture* baseColorTexture = nullptr;
+  const gl::Texture* alphaMask = nullptr;  ///< alpha below the cutoff cuts holes; null: none anywhere
+  float alphaCutoff = 0.0f;                ///< of mask times vertex colour
+  bool vertexColors = false;
   scene::Bounds boundsWorld;
   bool closed = false;       ///< no boundary edges: from outside only front faces are seen
   float solidity = 1.0f;     ///< of casters, see scene::solidity()

@@ -44,4 +44,8 @@ FilterSkip preferredSkip(const LightScene& scene) {
   return filterSkipFromName(scene.settings.choice("filter_skip"));
 }
 
+bool hasShortPrograms(const LightScene& scene) {
+  return scene.settings.choice("program_size") == "short";
+}
+
 }  // namespace halfshadow::techniques

@@ -149,6 +149,9 @@ std::shared_ptr<const std::vector<std::byte>> streamBytes(const std::vector<T>& 
 /// Setting filter_skip: the device profile's choice.
 FilterSkip preferredSkip(const LightScene& scene);
 
+/// Setting program_size.
+bool hasShortPrograms(const LightScene& scene);
+
 /// Makes one light's passes, frame after frame: kept beside the light, with whatever it needs to know again.
 class LightPlanner {
  public:

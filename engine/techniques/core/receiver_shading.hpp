@@ -48,8 +48,8 @@ struct ReceiverShading {
   bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.
   enum class SelfReceivers { none, casting, all } selfReceivers = SelfReceivers::none;
-  /// With SelfReceivers::casting, receivers of these meshes too, though they cast nothing themselves.
-  std::vector<const GpuMesh*> alsoCasting;
+  /// With SelfReceivers::casting, these objects too, though they cast nothing themselves.
+  std::vector<std::uint64_t> alsoCasting;
   bool forward = true;  ///< may be evaluated inside a host's own fragment shader
 };
 

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "base/keys.hpp"
+
 namespace halfshadow::techniques {
 namespace {
 std::string number(double value) {
@@ -19,6 +21,12 @@ std::string number(double value) {
 bool parse(std::string_view text, double& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   return error == std::errc() && end == text.data() + text.size() && std::isfinite(value);
+}
+/// Digits alone, of which the first of several is not 0, behind a minus or not.
+bool isPlainInteger(std::string_view text) {
+  if (text.starts_with('-')) text.remove_prefix(1);
+  if (text.empty() || (text.size() > 1 && text.front() == '0')) return false;
+  return std::ranges::all_of(text, [](char c) { return c >= '0' && c <= '9'; });
 }
 }  // namespace
 
@@ -46,6 +54,23 @@ std::vector<SettingInfo> commonSettings() {
        16,
        {},
        "multiple of the depth bias derived from texel size, slope, storage and kernel; 1 = no acne"},
+      {"shading",
+       SettingType::choice,
+       "together",
+       0,
+       0,
+       {"together", "apart"},
+       "whether a single light is shaded where its visibility is found, or in a pass of its own: smaller "
+       "programs, and one image more; several lights are always shaded apart"},
+      {"program_size",
+       SettingType::choice,
+       "full",
+       0,
+       0,
+       {"full", "short"},
+       "short: forms of pcss, pcss-mip and pcf-quantized that fit 256 instructions: tap by tap, one search, "
+       "no "
+       "horizons; taken by itself where the full ones draw nothing; device profiles set it"},
       {"filter_skip",
        SettingType::choice,
        "stencil",
@@ -103,8 +128,8 @@ Status Settings::set(std::string_view key, std::string_view value) {
     }
   } else {
     double parsed = 0;
-    const bool whole =
-        info->type != SettingType::integer || (parse(value, parsed) && parsed == std::floor(parsed));
+    // Integers reach shaders as they are written.
+    const bool whole = info->type != SettingType::integer || isPlainInteger(value);
     if (!parse(value, parsed) || !whole || parsed < info->low || parsed > info->high) {
       return Error{ErrorCode::invalidArgument,
                    info->key + "=" + std::string(value) + ": give " +
@@ -118,6 +143,15 @@ Status Settings::set(std::string_view key, std::string_view value) {
     ++revision_;
   }
   return {};
+}
+
+Settings Settings::with(std::span<const std::pair<std::string, std::string>> values) const {
+  Settings changed = *this;
+  for (const auto& [key, value] : values) {
+    (void)changed.set(key, value).ok();
+    changed.revision_ = combineKeys(changed.revision_, textKey(key + "=" + value));
+  }
+  return changed;
 }
 
 const std::string& Settings::valueOf(std::string_view key) const {

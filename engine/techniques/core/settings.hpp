@@ -8,6 +8,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/error.hpp"
@@ -35,6 +36,8 @@ class Settings {
 
   /// Errors: unknownSetting (lists the technique's keys), invalidArgument (names range or choices).
   Status set(std::string_view key, std::string_view value);
+  /// A copy with other values, of another revision. Values that set() would refuse stay as they are.
+  Settings with(std::span<const std::pair<std::string, std::string>> values) const;
   int integer(std::string_view key) const;
   double real(std::string_view key) const;
   const std::string& choice(std::string_view key) const;

@@ -33,6 +33,10 @@ ShaderFamily fullscreen(std::string fragmentFile, std::vector<ShaderAxis> axes) 
   return {"screen/fullscreen.vert", std::move(fragmentFile), std::move(axes)};
 }
 
+ShaderAxis alphaAxis() {
+  return {{}, {{"HS_ALPHA_MASK"}}, {.defines = {"HS_ALPHA_MASK", "HS_VERTEX_COLORS"}}};
+}
+
 ShaderAxis castingAxis(std::vector<std::string> needs) {
   needs.emplace_back("!HS_FORWARD");
   return flag("HS_CASTING_RECEIVER", std::move(needs));
@@ -52,6 +56,12 @@ std::vector<ShaderFamily> receiverFamilies(const std::string& fragmentFile, cons
                   {{"HS_COUNT_TAPS"}},
                   {{"HS_SHADED"}},
                   {{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}});
+  // The same few lines in all of them: compiled where there is little else.
+  const bool compiled = fragmentFile == "receiver/none.frag" || fragmentFile == "receiver/shade_lights.frag";
+  axes.push_back({{},
+                  {{"HS_ALPHA_MASK"}, {}, compiled},
+                  {{"HS_ALPHA_MASK", "HS_VERTEX_COLORS"}, {}, compiled},
+                  {{"HS_VERTEX_COLORS"}, {"HS_SHADED"}, compiled}});
   if (traits.twoDraws) {
     axes.push_back(
         {{}, {{"HS_PHASE_CLASSIFY"}, {"!HS_COUNT_TAPS"}}, {{"HS_PHASE_FILTER"}, {"!HS_COUNT_TAPS"}}});

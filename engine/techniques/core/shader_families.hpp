@@ -22,6 +22,9 @@ ShaderAxis range(const std::string& macro, const SettingInfo& setting, std::init
 
 ShaderFamily fullscreen(std::string fragmentFile, std::vector<ShaderAxis> axes = {});
 
+/// Of programs that draw meshes: whether alpha cuts holes, with or without colours of vertices.
+ShaderAxis alphaAxis();
+
 /// HS_CASTING_RECEIVER, see ReceiverShading::selfReceivers.
 ShaderAxis castingAxis(std::vector<std::string> needs = {});
 

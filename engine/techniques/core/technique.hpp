@@ -11,6 +11,7 @@
 
 #include "base/error.hpp"
 #include "device/capabilities.hpp"
+#include "techniques/core/fallback.hpp"
 #include "techniques/core/light_scene.hpp"
 #include "techniques/core/pass_plan.hpp"
 #include "techniques/core/settings.hpp"
@@ -24,6 +25,8 @@ struct TechniqueInfo {
   std::string summary;
   std::string guarantees;     ///< what holds exactly
   std::string knownFailures;  ///< what it gets wrong by construction
+  /// It takes casters by their outlines, which know of no holes that alpha cuts.
+  bool takesOutlines = false;
 };
 
 struct Support {
@@ -65,6 +68,9 @@ class Technique {
     (void)settings;
     return {.mapSize = mapSize};
   }
+  /// Taken one after another, each in place of the one before, where a program of the technique draws nothing
+  /// on the device. After the last, `hard` takes the light, and after it `none`.
+  virtual std::vector<Fallback> fallbacks() const { return {}; }
   /// For a light that takes this technique; the engine keeps it beside the light.
   virtual std::unique_ptr<LightPlanner> newPlanner() const = 0;
 };

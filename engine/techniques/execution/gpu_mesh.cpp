@@ -90,21 +90,24 @@ Status GpuMesh::upload(gl::Context& context, const scene::TriangleMesh& mesh) {
   return {};
 }
 
-Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh& mesh) {
+Status GpuMesh::uploadSurface(gl::Context& context, const scene::TriangleMesh& mesh, MeshExtras extras) {
+  const auto add = [&](gl::Buffer& buffer, const auto& values, const std::vector<std::uint32_t>& order) {
+    if (values.empty()) return Status();
+    return refresh(context, buffer, gl::BufferTarget::vertex, bytesOf(gathered(values, order)));
+  };
+  if (Status s = add(texcoords_, mesh.texcoords, sourceVertex_); !s) return s;
+  if (Status s = add(colors_, mesh.colors, sourceVertex_); !s) return s;
+  if (!shadedByFacets_ && !(extras == MeshExtras::alpha && facet_)) return {};
+  if (Status s = add(facetTexcoords_, mesh.texcoords, mesh.indices); !s) return s;
+  return add(facetColors_, mesh.colors, mesh.indices);
+}
+
+Result<GpuMesh> GpuMesh::create(gl::Context& context, const scene::TriangleMesh& mesh, MeshExtras extras) {
   GpuMesh gpu;
   gpu.split(mesh, context.capabilities().has(device::Capability::uintIndex));
   if (Status s = gpu.upload(context, mesh); !s) return s.error();
-  if (!mesh.texcoords.empty()) {
-    const auto texcoords = gathered(mesh.texcoords, gpu.sourceVertex_);
-    if (Status s = refresh(context, gpu.texcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s)
-      return s.error();
-  }
   gpu.shadedByFacets_ = mesh.normals.empty() && needsFacetStream(context.capabilities());
-  if (gpu.shadedByFacets_ && !mesh.texcoords.empty()) {
-    const auto texcoords = gathered(mesh.texcoords, mesh.indices);
-    if (Status s = refresh(context, gpu.facetTexcoords_, gl::BufferTarget::vertex, bytesOf(texcoords)); !s)
-      return s.error();
-  }
+  if (Status s = gpu.uploadSurface(context, mesh, extras); !s) return s.error();
   const bool shortIndices =
       std::ranges::all_of(gpu.gpuIndices_, [](std::uint32_t i) { return i < kShortIndexVertices; });
   Status indices;
@@ -129,30 +132,39 @@ Status GpuMesh::update(gl::Context& context, const scene::TriangleMesh& mesh) {
   return upload(context, mesh);
 }
 
-void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams streams) const {
-  using gl::AttributeBinding;
+void GpuMesh::drawFacets(gl::Encoder& encoder, const gl::DrawState& state, bool withSurface) const {
+  using gl::AttributeType;
   using gl::VertexAttribute;
+  gl::AttributeBinding bindings[4] = {{VertexAttribute::position, &facet_, 3, AttributeType::float32, 24, 0},
+                                      {VertexAttribute::normal, &facet_, 3, AttributeType::float32, 24, 12}};
+  std::size_t count = 2;
+  if (withSurface && facetTexcoords_)
+    bindings[count++] = {VertexAttribute::texcoord, &facetTexcoords_, 2, AttributeType::float32, 8, 0};
+  if (withSurface && facetColors_)
+    bindings[count++] = {VertexAttribute::extra0, &facetColors_, 4, AttributeType::float32, 16, 0};
+  encoder.draw(state, {.attributes = std::span(bindings, count), .count = facetVertexCount_});
+}
+
+void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams streams,
+                   MeshExtras extras) const {
+  using gl::AttributeType;
+  using gl::VertexAttribute;
+  const bool withSurface = streams == Streams::shading || extras == MeshExtras::alpha;
   if ((streams == Streams::facet && facet_) || (streams == Streams::shading && shadedByFacets_)) {
-    const AttributeBinding bindings[] = {
-        {VertexAttribute::position, &facet_, 3, gl::AttributeType::float32, 24, 0},
-        {VertexAttribute::normal, &facet_, 3, gl::AttributeType::float32, 24, 12},
-        {VertexAttribute::texcoord, &facetTexcoords_, 2, gl::AttributeType::float32, 8, 0}};
-    const bool textured = streams == Streams::shading && facetTexcoords_;
-    encoder.draw(state, {.attributes = std::span(bindings, textured ? 3 : 2), .count = facetVertexCount_});
+    drawFacets(encoder, state, withSurface);
     return;
   }
   for (const Range& range : ranges_) {
-    AttributeBinding bindings[3] = {
-        {VertexAttribute::position, &positions_, 3, gl::AttributeType::float32, 12, range.firstVertex * 12}};
+    const std::size_t first = range.firstVertex;
+    gl::AttributeBinding bindings[4] = {
+        {VertexAttribute::position, &positions_, 3, AttributeType::float32, 12, first * 12}};
     std::size_t count = 1;
-    if (streams == Streams::shading && normals_) {
-      bindings[count++] = {VertexAttribute::normal,    &normals_, 3,
-                           gl::AttributeType::float32, 12,        range.firstVertex * 12};
-    }
-    if (streams == Streams::shading && texcoords_) {
-      bindings[count++] = {VertexAttribute::texcoord,  &texcoords_, 2,
-                           gl::AttributeType::float32, 8,           range.firstVertex * 8};
-    }
+    if (streams == Streams::shading && normals_)
+      bindings[count++] = {VertexAttribute::normal, &normals_, 3, AttributeType::float32, 12, first * 12};
+    if (withSurface && texcoords_)
+      bindings[count++] = {VertexAttribute::texcoord, &texcoords_, 2, AttributeType::float32, 8, first * 8};
+    if (withSurface && colors_)
+      bindings[count++] = {VertexAttribute::extra0, &colors_, 4, AttributeType::float32, 16, first * 16};
     encoder.draw(state, {.attributes = std::span(bindings, count),
                          .indices = &indices_,
                          .indexType = indexType_,
@@ -163,7 +175,7 @@ void GpuMesh::draw(gl::Encoder& encoder, const gl::DrawState& state, Streams str
 
 std::uint64_t GpuMesh::memoryBytes() const {
   return positions_.byteCount() + indices_.byteCount() + normals_.byteCount() + texcoords_.byteCount() +
-         facet_.byteCount() + facetTexcoords_.byteCount();
+         colors_.byteCount() + facet_.byteCount() + facetTexcoords_.byteCount() + facetColors_.byteCount();
 }
 
 }  // namespace halfshadow::techniques

@@ -40,24 +40,32 @@ std::vector<ResourceId> readsOf(const PlannedPass& pass) {
   return reads;
 }
 
+/// Whether a proof of one holds for the other: draws of a pass mostly differ in what they draw alone.
+bool usesAlike(const PlannedDraw& a, const PlannedDraw& b) {
+  const device::BlendState &p = a.state.blend, &q = b.state.blend;
+  return !std::holds_alternative<ReceiversDraw>(a.what) && a.program == b.program &&
+         a.textures.size() == b.textures.size() && p.enabled == q.enabled && p.equation == q.equation &&
+         p.source == q.source && p.destination == q.destination && a.state.colorMask == b.state.colorMask &&
+         a.state.depth.test == b.state.depth.test && a.state.depth.write == b.state.depth.write;
+}
+
 gl::Cull culledFaces(const MeshDraw& meshes, const DrawItem& item) {
   if (meshes.faces == MeshDraw::Faces::all) return gl::Cull::none;
   const gl::Cull hidden = hiddenFaces(item, meshes.eyeWorld, meshes.nearReach);
   return meshes.faces == MeshDraw::Faces::turned ? turnedRound(hidden) : hidden;
 }
 
-/// Draws over the viewport what `draw` says of the image as the CPU changed it. Without memory for the copy
-/// the target stays as it was cleared.
+/// Draws over the viewport what `draw` says of the image as the CPU changed it.
 void drawReadBack(framegraph::PassContext& context, gl::Program& program, const gl::Texture& image,
                   const PlannedDraw& draw, const ReadBackDraw& back) {
   gl::Context& gl = context.encoder.context();
   auto framebuffer = gl::Framebuffer::create(gl, {.color = &image});
-  if (!framebuffer) return;
+  if (!framebuffer) return gl.noteFault(framebuffer.error().message);
   std::vector<std::uint8_t> rgba(static_cast<std::size_t>(back.width) * back.height * 4);
   context.encoder.readPixels(*framebuffer, {0, 0, back.width, back.height}, rgba.data());
   back.change(rgba);
   auto changed = gl::Texture::create(gl, {.width = back.width, .height = back.height}, rgba.data());
-  if (!changed) return;
+  if (!changed) return gl.noteFault(changed.error().message);
   context.encoder.useProgram(program);
   const gl::TextureBinding binding{program.samplerUnit(back.sampler), &*changed};
   context.encoder.bindTextures({&binding, 1});
@@ -83,10 +91,16 @@ Status LightPasses::link(Device& device) {
     if (!program) return program.error();
     programs_.push_back(*program);
   }
+  cutting_.clear();
   receivers_.clear();
   for (const PlannedPass& pass : plan_.passes) {
     std::vector<ReceiverProgramSet>& sets = receivers_.emplace_back();
     for (std::size_t i = 0; i < pass.draws.size(); ++i) {
+      if (const auto* meshes = std::get_if<MeshDraw>(&pass.draws[i].what)) {
+        for (const DrawItem& item : meshes->items) {
+          if (Status s = linkCutting(device, pass.draws[i].program, item); !s) return s;
+        }
+      }
       const auto* receivers = std::get_if<ReceiversDraw>(&pass.draws[i].what);
       if (receivers == nullptr) continue;
       auto set = receiverPrograms(device.programs, receivers->shading, receivers->output, receivers->items);
@@ -95,6 +109,19 @@ Status LightPasses::link(Device& device) {
       sets[i] = *set;
     }
   }
+  return {};
+}
+
+Status LightPasses::linkCutting(Device& device, std::uint32_t program, const DrawItem& item) {
+  if (item.alphaMask == nullptr) return {};
+  gl::Program*& slot = cutting_[{program, item.vertexColors}];
+  if (slot != nullptr) return {};
+  device::ProgramVariant variant = plan_.programs[program];
+  variant.defines.emplace_back("HS_ALPHA_MASK");
+  if (item.vertexColors) variant.defines.emplace_back("HS_VERTEX_COLORS");
+  auto linked = device.programs.get(variant);
+  if (!linked) return linked.error();
+  slot = *linked;
   return {};
 }
 
@@ -163,6 +190,23 @@ Status LightPasses::uploadBuffers(Device& device) {
   for (const PlannedBuffer& planned : plan_.buffers)
     buffersOfPlan_.push_back(&buffers_.at(planned.id).buffer);
   return {};
+}
+
+void LightPasses::addUses(ProgramUses& uses) const {
+  const auto descOf = [&](ResourceId image) -> const framegraph::ResourceDesc& {
+    return plan_.images[image.index];
+  };
+  for (std::size_t pass = 0; pass < plan_.passes.size(); ++pass) {
+    const std::vector<PlannedDraw>& draws = plan_.passes[pass].draws;
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      const PlannedDraw& draw = draws[i];
+      if (const auto* receivers = std::get_if<ReceiversDraw>(&draw.what)) {
+        uses.addReceivers(receivers_[pass][i], receivers->shading, receivers->target, descOf);
+      } else if (i == 0 || !usesAlike(draws[i - 1], draw)) {
+        uses.add(*programs_[draw.program], draw.state, draw.textures, descOf);
+      }
+    }
+  }
 }
 
 LightPasses::Images LightPasses::declareImages(framegraph::Graph& graph) const {
@@ -245,6 +289,21 @@ void LightPasses::runDraw(const PlannedDraw& draw, const Images& images,
     drawReadBack(context, program, context.texture(placed.of(back->image)), draw, *back);
     return;
   }
+  if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
+    drawMeshes(draw, *meshes, images, context);
+    return;
+  }
+  setUp(encoder, program, draw, images, context);
+  if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
+    drawBuffers(encoder, draw, *triangles);
+  } else {
+    encoder.drawFullscreen(draw.state);
+  }
+}
+
+void LightPasses::setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
+                        const Images& images, framegraph::PassContext& context) const {
+  const Placed placed{images};
   encoder.useProgram(program);
   program.set(encoder.context(), draw.uniforms);
   std::vector<gl::TextureBinding> bindings;
@@ -253,23 +312,23 @@ void LightPasses::runDraw(const PlannedDraw& draw, const Images& images,
                         read.texture ? read.texture : &context.texture(placed.of(read.resource))});
   }
   if (!bindings.empty()) encoder.bindTextures(bindings);
-  if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) {
-    drawMeshes(encoder, program, draw, *meshes);
-  } else if (const auto* triangles = std::get_if<BufferDraw>(&draw.what)) {
-    drawBuffers(encoder, draw, *triangles);
-  } else {
-    encoder.drawFullscreen(draw.state);
-  }
 }
 
-void LightPasses::drawMeshes(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
-                             const MeshDraw& meshes) const {
+void LightPasses::drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
+                             framegraph::PassContext& context) const {
+  gl::Encoder& encoder = context.encoder;
   gl::DrawState state = draw.state;
+  gl::Program* current = nullptr;
   for (const DrawItem& item : meshes.items) {
+    const bool cut = item.alphaMask != nullptr;
+    gl::Program& program = cut ? *cutting_.at({draw.program, item.vertexColors}) : *programs_[draw.program];
+    if (&program != current) setUp(encoder, program, draw, images, context);
+    current = &program;
+    if (cut) bindAlphaMask(encoder, program, item);
     state.cull = culledFaces(meshes, item);
     program.set(encoder.context(), meshes.clipFromObject,
                 glm::mat4(meshes.clipFromWorld * item.worldFromObject));
-    item.mesh->draw(encoder, state, meshes.streams);
+    item.mesh->draw(encoder, state, meshes.streams, cut ? MeshExtras::alpha : MeshExtras::none);
   }
 }
 

@@ -13,6 +13,7 @@
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
 #include "techniques/core/pass_plan.hpp"
+#include "techniques/execution/program_uses.hpp"
 #include "techniques/execution/receiver_pass.hpp"
 #include "techniques/execution/shared_textures.hpp"
 
@@ -54,6 +55,8 @@ class LightPasses {
   Status prepare(const LightScene& scene);
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
+  /// What the passes draw with. After upload().
+  void addUses(ProgramUses& uses) const;
   /// Adds images and passes; they refer to this and to the view until the frame ends.
   ReceiverShading declare(FramePasses& frame) const;
   /// Calls `visit(name, texture)` for each texture of the technique's own.
@@ -82,13 +85,18 @@ class LightPasses {
   void run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
            framegraph::PassContext& context) const;
   void runDraw(const PlannedDraw& draw, const Images& images, framegraph::PassContext& context) const;
-  void drawMeshes(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw,
-                  const MeshDraw& meshes) const;
+  /// The variant that cuts holes of one of the plan's programs that draws such an item.
+  Status linkCutting(Device& device, std::uint32_t program, const DrawItem& item);
+  void setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw, const Images& images,
+             framegraph::PassContext& context) const;
+  void drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
+                  framegraph::PassContext& context) const;
   void drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw, const BufferDraw& triangles) const;
 
   std::unique_ptr<LightPlanner> planner_;
   PassPlan plan_;
-  std::vector<gl::Program*> programs_;                      ///< by PassPlan::programs
+  std::vector<gl::Program*> programs_;                              ///< by PassPlan::programs
+  std::map<std::pair<std::uint32_t, bool>, gl::Program*> cutting_;  ///< the same; with colours of vertices?
   std::vector<std::vector<ReceiverProgramSet>> receivers_;  ///< by pass and draw; of ReceiversDraw alone
   std::map<std::string, OwnTexture, std::less<>> textures_;
   std::vector<const gl::Texture*> texturesOfPlan_;

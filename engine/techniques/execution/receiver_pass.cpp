@@ -3,8 +3,11 @@
 #include "techniques/execution/receiver_pass.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 #include <glm/gtc/matrix_inverse.hpp>
 
+#include "base/keys.hpp"
 #include "techniques/execution/gpu_mesh.hpp"
 
 namespace halfshadow::techniques {
@@ -43,7 +46,9 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
           .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
                      (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
                       (item.casts ||
-                       std::ranges::find(shading.alsoCasting, item.mesh) != shading.alsoCasting.end()))};
+                       std::ranges::find(shading.alsoCasting, item.object) != shading.alsoCasting.end())),
+          .cut = item.alphaMask != nullptr,
+          .colored = item.vertexColors && (shaded || item.alphaMask != nullptr)};
 }
 
 void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
@@ -78,10 +83,22 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
   relative[3] -= glm::dvec4(inputs->lights.front()->centerWorld, 0.0);
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 3; ++row) relative[column][row] *= inputs->scale;
+  }
   program.set(gl, "u_shadeFromObject", glm::mat4(relative));
   program.set(gl, "u_worldNormalFromObject",
               glm::mat3(glm::inverseTranspose(glm::dmat3(item.worldFromObject))));
   program.set(gl, "u_baseColor", item.baseColor);
+}
+
+/// Slope and offset of what the cone lets through, over the cosine to its axis; squared by the shader.
+/// Based on: KHR_lights_punctual, inner and outer cone angles.
+glm::vec2 coneEdge(const scene::AreaLight& light) {
+  if (!(light.outerConeRadians > 0.0)) return {0.0f, 1.0f};
+  const double outer = std::cos(light.outerConeRadians);
+  const double slope = 1.0 / std::max(1e-3, std::cos(light.innerConeRadians) - outer);
+  return {slope, -outer * slope};
 }
 
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
@@ -96,19 +113,37 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
   for (std::size_t i = 0; i < 4; ++i) {
     if (i >= inputs->lights.size()) continue;
     const scene::AreaLight& light = *inputs->lights[i];
-    const double reference = light.referenceDistance;
-    position[i] = glm::vec4(glm::vec3(light.centerWorld - origin),
-                            reference > 0.0 ? static_cast<float>(1.0 / reference) : 0.0f);
-    emission[i] = glm::vec4(glm::vec3(light.emission), 0.0f);
-    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), 0.0f);
+    // Beyond that the falloff is at its limit everywhere.
+    constexpr double kMostReference = 1024.0;
+    const double reference = std::min(light.referenceDistance * inputs->scale, kMostReference);
+    position[i] = glm::vec4(glm::vec3((light.centerWorld - origin) * inputs->scale), reference);
+    const glm::vec2 cone = coneEdge(light);
+    emission[i] = glm::vec4(glm::vec3(light.emission), cone.x);
+    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), cone.y);
   }
   program.setArray(gl, "u_lightPosition", position, 4);
   program.setArray(gl, "u_lightEmission", emission, 4);
   program.setArray(gl, "u_lightColor", color, 4);
-  program.set(gl, "u_eye", glm::vec4(glm::vec3(view.eyeWorld - origin), 0.0f));
+  program.set(gl, "u_eye", glm::vec4(glm::vec3((view.eyeWorld - origin) * inputs->scale), 0.0f));
 }
 
 }  // namespace
+
+double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers) {
+  double farthest = 0.0;
+  for (const DrawItem& item : receivers) {
+    const glm::dvec3 reach = glm::max(glm::abs(item.boundsWorld.low - first.centerWorld),
+                                      glm::abs(item.boundsWorld.high - first.centerWorld));
+    farthest = std::max(farthest, glm::length(reach));
+  }
+  return farthest > 0.0 ? std::exp2(-std::ceil(std::log2(farthest))) : 1.0;
+}
+
+void bindAlphaMask(gl::Encoder& encoder, gl::Program& program, const DrawItem& item) {
+  const gl::TextureBinding binding{program.samplerUnit("u_alphaMask"), item.alphaMask};
+  encoder.bindTextures({&binding, 1});
+  program.set(encoder.context(), "u_alphaCutoff", item.alphaCutoff);
+}
 
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility) {
   ReceiverShading shading;
@@ -133,6 +168,8 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
   std::vector<std::string> defines = shading.defines;
   if (kind.facets) defines.push_back("HS_FACET_NORMAL");
   if (kind.casting) defines.push_back("HS_CASTING_RECEIVER");
+  if (kind.cut) defines.push_back("HS_ALPHA_MASK");
+  if (kind.colored) defines.push_back("HS_VERTEX_COLORS");
   for (std::string& define : outputDefines(output, kind.textured)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
@@ -169,11 +206,7 @@ Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const Re
   return set;
 }
 
-void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
-                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
-                   const ShadingInputs* inputs, const ReceiverTarget& target) {
-  gl::Encoder& encoder = context.encoder;
-  const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
+gl::DrawState receiverState(const ReceiverTarget& target) {
   gl::DrawState state;
   state.depth = {.test = target.depthIsComplete ? gl::Compare::equal : gl::Compare::less,
                  .write = !target.depthIsComplete};
@@ -181,6 +214,15 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   if (target.additive) {
     state.blend = {.enabled = true, .source = gl::BlendFactor::one, .destination = gl::BlendFactor::one};
   }
+  return state;
+}
+
+void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
+                   const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
+                   const ShadingInputs* inputs, const ReceiverTarget& target) {
+  gl::Encoder& encoder = context.encoder;
+  const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
+  gl::DrawState state = receiverState(target);
   // Steps of a depth buffer: too few to bring anything forward that is not in the same place.
   constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;
@@ -201,12 +243,14 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
       const gl::TextureBinding binding{program->samplerUnit("u_baseColorTexture"), item.baseColorTexture};
       encoder.bindTextures({&binding, 1});
     }
+    if (kind.cut) bindAlphaMask(encoder, *program, item);
     setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs, ofItem);
     state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state,
                     kind.facets ? GpuMesh::Streams::facet
                     : inputs    ? GpuMesh::Streams::shading
-                                : GpuMesh::Streams::positions);
+                                : GpuMesh::Streams::positions,
+                    kind.cut ? MeshExtras::alpha : MeshExtras::none);
   };
   if (!programs.twoDraws) {
     for (const DrawItem& item : items) draw(item, &ReceiverPrograms::whole);
@@ -227,28 +271,68 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   }
 }
 
-Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading) {
-  std::vector<std::string> defines = shading.defines;
+ForwardVariant forwardVariant(const ReceiverShading& shading) {
+  ForwardVariant variant{.fragmentFile = shading.fragmentFile,
+                         .defines = shading.defines,
+                         .usesFacetPlane = shading.usesFacetPlane};
+  const auto hashed = [](std::string_view text) {
+    std::uint64_t key = 0xcbf29ce484222325ull;  // as good as any
+    for (const char c : text) key = combineKeys(key, static_cast<std::uint8_t>(c));
+    return key;
+  };
+  variant.key = combineKeys(hashed(shading.fragmentFile), shading.usesFacetPlane ? 1 : 2);
+  for (const std::string& define : shading.defines) variant.key = combineKeys(variant.key, hashed(define));
+  for (const TextureRead& texture : shading.textures) variant.samplers.push_back(texture.sampler);
+  if (variant.key == 0) variant.key = 1;
+  return variant;
+}
+
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ForwardVariant& variant) {
+  std::vector<std::string> defines = variant.defines;
   defines.push_back("HS_FORWARD");
-  if (shading.usesFacetPlane && needsFacetStream(programs.capabilities()))
+  if (variant.usesFacetPlane && needsFacetStream(programs.capabilities()))
     defines.push_back("HS_FACET_NORMAL");
-  auto sources = programs.assemble({"receiver/forward.vert", shading.fragmentFile, std::move(defines)});
+  auto sources = programs.assemble({"receiver/forward.vert", variant.fragmentFile, std::move(defines)});
   if (!sources) return sources.error();
   const auto withoutVersion = [](const std::string& text) { return text.substr(text.find('\n') + 1); };
-  return ForwardTexts{withoutVersion(sources->vertex), withoutVersion(sources->fragment)};
+  char key[24];
+  std::snprintf(key, sizeof key, "%016llx", static_cast<unsigned long long>(variant.key));
+  const std::string lit = std::string(gl::Program::kTextKeyPrefix) + key;
+  // The maximum, beside the choice, keeps the uniform where the technique's function is a constant.
+  return ForwardTexts{withoutVersion(sources->vertex),
+                      "#define halfshadow_visibility hs_techniqueVisibility\n" +
+                          withoutVersion(sources->fragment) +
+                          "#undef halfshadow_visibility\nuniform mediump float " + lit +
+                          ";\nfloat halfshadow_visibility() {\n  float seen = hs_techniqueVisibility();\n"
+                          "  return max(" +
+                          lit + " > 0.5 ? 1.0 : seen, " + lit + ");\n}\n"};
 }
 
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
-                 const glm::dmat4& worldFromObject, int firstTextureUnit,
-                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf) {
+                 const ForwardBinding& binding) {
+  program.setTextKeyUniform(context, 0.0f);
   program.set(context, shading.uniforms);
-  setMapUniforms(context, program, shading, worldFromObject, needsFacetStream(context.capabilities()));
-  int unit = firstTextureUnit;
+  setMapUniforms(context, program, shading, binding.worldFromObject,
+                 needsFacetStream(context.capabilities()));
+  int unit = binding.firstTextureUnit;
   for (const TextureRead& texture : shading.textures) {
-    const gl::Texture* bound = texture.texture ? texture.texture : textureOf(texture.resource);
-    if (!program.has(texture.sampler) || bound == nullptr) continue;
-    bound->bind(context, unit);
+    const gl::Texture* read =
+        texture.texture ? texture.texture : binding.executor.texture(binding.graph, texture.resource);
+    if (!program.has(texture.sampler) || read == nullptr) continue;
+    std::uint32_t& known = binding.bound[static_cast<std::size_t>(unit) % binding.bound.size()];
+    if (known != read->name()) read->bind(context, unit);
+    known = read->name();
     program.setSampler(context, texture.sampler, unit++);
+  }
+}
+
+void bindForwardLit(gl::Context& context, gl::Program& program, const ForwardVariant& variant,
+                    int firstTextureUnit) {
+  program.setTextKeyUniform(context, 1.0f);
+  // Samplers of unlike types may not share a unit, though nothing is read from it.
+  int unit = firstTextureUnit;
+  for (const device::UniformKey sampler : variant.samplers) {
+    if (program.has(sampler)) program.setSampler(context, sampler, unit++);
   }
 }
 

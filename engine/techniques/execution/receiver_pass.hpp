@@ -5,6 +5,8 @@
 /// taps, or shaded in one forward pass.
 #pragma once
 
+#include <array>
+
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
 #include "techniques/core/light_scene.hpp"
@@ -15,7 +17,10 @@ namespace halfshadow::techniques {
 struct ShadingInputs {
   std::vector<const scene::AreaLight*>
       lights;  ///< one when visibility is evaluated in the same pass, else up to four
+  double scale =
+      1.0;  ///< of the world, by which all receivers are within 1 of the first light: a power of two
 };
+double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers);
 
 /// Lit colours from the visibilities of all lights that an earlier pass left in `visibility`.
 ReceiverShading shadeFromScreen(framegraph::ResourceId visibility);
@@ -31,18 +36,22 @@ struct ReceiverKind {
   bool facets = false;    ///< its facet stream is drawn
   bool textured = false;  ///< its base colour texture is read
   bool casting = false;   ///< it is in the map itself, and the technique minds
+  bool cut = false;       ///< alpha cuts holes into it
+  bool colored = false;   ///< colours of its vertices are read
+  int index() const { return facets + 2 * textured + 4 * casting + 8 * cut + 16 * colored; }
 };
 struct ReceiverProgramSet {
-  ReceiverPrograms byKind[2][2][2];
+  ReceiverPrograms byKind[32];
   bool twoDraws = false;
-  ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.facets][kind.textured][kind.casting]; }
-  const ReceiverPrograms& of(const ReceiverKind& kind) const {
-    return byKind[kind.facets][kind.textured][kind.casting];
-  }
+  ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.index()]; }
+  const ReceiverPrograms& of(const ReceiverKind& kind) const { return byKind[kind.index()]; }
 };
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
                                             ReceiverOutput output, std::span<const DrawItem> items);
+
+/// What drawReceivers() draws with, whatever the item.
+gl::DrawState receiverState(const ReceiverTarget& target);
 
 /// Draws all items; called inside a pass whose reads include the shading's resources.
 /// `shadingInputs`: of ReceiverOutput::shaded, else null.
@@ -50,15 +59,39 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
                    const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
                    const ShadingInputs* shadingInputs, const ReceiverTarget& target);
 
+/// What decides the texts of a host's own shaders.
+struct ForwardVariant {
+  std::string fragmentFile;
+  std::vector<std::string> defines;
+  std::vector<device::UniformKey> samplers;
+  bool usesFacetPlane = false;
+  std::uint64_t key = 0;  ///< of the texts; never 0
+};
+ForwardVariant forwardVariant(const ReceiverShading& shading);
+
+/// Of an item that alpha cuts: sets what alpha_mask.glsl reads of the current program.
+void bindAlphaMask(gl::Encoder& encoder, gl::Program& program, const DrawItem& item);
+
 /// Texts for a host's own shaders, see ForwardRecord. Errors: shaderFailed.
 struct ForwardTexts {
   std::string vertex, fragment;
 };
-Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ReceiverShading& shading);
-/// Where a host's program gets what the fragment text reads; the program is current.
+Result<ForwardTexts> forwardTexts(const gl::ProgramCache& programs, const ForwardVariant& variant);
+/// Names by unit of the textures that hosts' programs read, as far as they are known to be bound.
+using ForwardUnits = std::array<std::uint32_t, 32>;
+/// Where a host's program, which is current, gets what the fragment text reads.
+struct ForwardBinding {
+  const glm::dmat4& worldFromObject;
+  int firstTextureUnit = 0;
+  ForwardUnits& bound;
+  const framegraph::Executor& executor;
+  const framegraph::Graph& graph;
+};
 void bindForward(gl::Context& context, gl::Program& program, const ReceiverShading& shading,
-                 const glm::dmat4& worldFromObject, int firstTextureUnit,
-                 const std::function<const gl::Texture*(framegraph::ResourceId)>& textureOf);
+                 const ForwardBinding& binding);
+/// The same of a light that shadows nothing: everything is lit, and no image is read.
+void bindForwardLit(gl::Context& context, gl::Program& program, const ForwardVariant& variant,
+                    int firstTextureUnit);
 
 /// Resources that the pass must list as read.
 std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading);

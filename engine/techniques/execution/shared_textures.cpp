@@ -4,8 +4,17 @@
 
 namespace halfshadow::techniques {
 
+void SharedTextures::beginFrame() {
+  for (auto& [name, shared] : textures_) shared.used = false;
+}
+
+void SharedTextures::endFrame() {
+  std::erase_if(textures_, [](const auto& entry) { return !entry.second.used; });
+}
+
 Result<const gl::Texture*> SharedTextures::get(gl::Context& context, const PlannedTexture& planned) {
-  gl::Texture& texture = textures_[planned.name];
+  auto& [texture, used] = textures_[planned.name];
+  used = true;
   if (!texture) {
     auto made = gl::Texture::create(context, planned.desc, planned.pixels()->data());
     if (!made) return made.error();

@@ -14,12 +14,19 @@ namespace halfshadow::techniques {
 
 class SharedTextures {
  public:
-  /// Valid until forget(). Errors: outOfMemory.
+  /// Between these two, what no light asks for is found out, and freed.
+  void beginFrame();
+  void endFrame();
+  /// Valid until endFrame() of a frame that does not ask for it, or forget(). Errors: outOfMemory.
   Result<const gl::Texture*> get(gl::Context& context, const PlannedTexture& planned);
   void forget() { textures_.clear(); }
 
  private:
-  std::map<std::string, gl::Texture, std::less<>> textures_;
+  struct Shared {
+    gl::Texture texture;
+    bool used = false;
+  };
+  std::map<std::string, Shared, std::less<>> textures_;
 };
 
 }  // namespace halfshadow::techniques

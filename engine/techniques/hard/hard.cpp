@@ -21,6 +21,7 @@ class Hard final : public Technique {
     return mapReceiverFamilies("map/hard.frag", {subLightAxis()});
   }
   SubLightUse subLightUse(const Settings&) const override { return SubLightUse::whenAsked; }
+  std::vector<Fallback> fallbacks() const override { return {shadedApart()}; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

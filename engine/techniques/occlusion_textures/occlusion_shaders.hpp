@@ -45,7 +45,8 @@ inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
   return joined(
       {{{"occlusion/occlusion_slices.vert",
          "occlusion/occlusion_slices.frag",
-         {{{}, {{"HS_PACK_DEPTH"}}, {{"HS_SLICE_DEPTH"}}, {{"HS_SLICE_DEPTH", "HS_LAST_RECEIVERS"}}}}},
+         {{{}, {{"HS_PACK_DEPTH"}}, {{"HS_SLICE_DEPTH"}}, {{"HS_SLICE_DEPTH", "HS_LAST_RECEIVERS"}}},
+          alphaAxis()}},
         fullscreen("occlusion/occlusion_level.frag", {flag("HS_FIRST_LEVEL"), flag("HS_TILED")}),
         fullscreen("occlusion/occlusion_sum.frag", {flag("HS_FIRST_STEP"), flag("HS_TILED")}),
         fullscreen("occlusion/occlusion_mip.frag"),

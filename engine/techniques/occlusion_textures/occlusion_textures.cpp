@@ -167,6 +167,11 @@ class OcclusionTextures final : public Technique {
     // casters.
     return {.mapSize = settings.integer("occlusion-textures.map_size"), .perSide = 2, .worthSplitting = 12.0};
   }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(),
+            shadedApart({{"sub_lights", "1"}}, "slices of the whole light"),
+            {.text = "a filter as wide as the penumbra", .technique = "pcss-mip"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

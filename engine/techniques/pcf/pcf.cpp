@@ -90,6 +90,12 @@ class Pcf final : public Technique {
     return mapReceiverFamilies("map/pcf.frag", {kernelAxis(), subLightAxis()});
   }
   SubLightUse subLightUse(const Settings&) const override { return SubLightUse::whenAsked; }
+  std::vector<Fallback> fallbacks() const override {
+    return {
+        shadedApart(), shadedApart({{"sub_lights", "1"}}, "one map of the whole light"),
+        shadedApart({{"sub_lights", "1"}, {"pcf.pattern", "grid"}, {"pcf.size", "4"}}, "16 taps of one map"),
+        shadedApart({{"sub_lights", "1"}, {"pcf.pattern", "grid"}, {"pcf.size", "2"}}, "4 taps of one map")};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }
@@ -138,6 +144,9 @@ class PcfMasked final : public Technique {
         {kernelAxis(), flag("HS_MASK_EDGES"),
          flag("HS_SKIP_LOOP", {"HS_KERNEL", "!HS_PHASE_CLASSIFY", "!HS_PHASE_FILTER"})},
         {.twoDraws = true});
+  }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), {.text = "every pixel is filtered", .technique = "pcf"}};
   }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();

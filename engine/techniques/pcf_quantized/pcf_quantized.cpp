@@ -71,14 +71,17 @@ class PcfQuantized final : public Technique {
     return standInForOneView(scene);
   }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return joined(
-        {mapReceiverFamilies(
-             "map/pcf_quantized.frag",
-             {range("HS_SPREAD_KERNEL", 3, 9, {4, 7}), {{{"HS_SEARCH 5"}}}, castingAxis(), subLightAxis()},
-             {.twoDraws = true}),
-         mapReceiverFamilies("map/pcf_quantized_paper.frag",
-                             {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_LIT_OUTSIDE"}}}})});
+    return joined({mapReceiverFamilies("map/pcf_quantized.frag",
+                                       {range("HS_SPREAD_KERNEL", 3, 9, {4, 7}),
+                                        {{{"HS_SEARCH 5"}}},
+                                        castingAxis(),
+                                        subLightAxis(),
+                                        flag("HS_SHORT")},
+                                       {.twoDraws = true}),
+                   mapReceiverFamilies("map/pcf_quantized_paper.frag",
+                                       {values("HS_SPREAD_KERNEL", {5, 7, 9}), {{{"HS_LIT_OUTSIDE"}}}})});
   }
+  std::vector<Fallback> fallbacks() const override { return penumbraFallbacks(); }
   SubLightUse subLightUse(const Settings& settings) const override {
     return settings.choice("pcf-quantized.preset") == "paper" ? SubLightUse::none : SubLightUse::automatic;
   }
@@ -116,13 +119,10 @@ class PcfQuantized final : public Technique {
 
   static Status planTuned(const LightScene& scene, PassPlan& plan) {
     const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
-    auto pyramid = planBlockerPyramid(scene, plan, depth);
-    if (!pyramid) return pyramid.error();
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "map/pcf_quantized.frag");
     addPenumbraBounds(scene, plan, depth, shading);
-    addSelfReceiverSearch(scene, shading);
-    addBlockerPyramid(shading, depth, *pyramid);
+    if (Status s = addBlockerSearch(scene, plan, depth); !s) return s;
     std::array<int, 3> sides = kernelSides(scene.settings.choice("pcf-quantized.kernels"));
     for (int& side : sides) side = filterSide(depth, side);
     addKernels(shading, sides);

@@ -26,11 +26,13 @@ class Pcss final : public Technique {
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForOneView(scene); }
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return mapReceiverFamilies("map/pcss.frag",
-                               {range("HS_SEARCH", settings()[0], {3, 9}),
-                                range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17}), subLightAxis()},
-                               {.twoDraws = true});
+    return mapReceiverFamilies(
+        "map/pcss.frag",
+        {range("HS_SEARCH", settings()[0], {3, 9}), range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17}),
+         subLightAxis(), flag("HS_SHORT")},
+        {.twoDraws = true});
   }
+  std::vector<Fallback> fallbacks() const override { return penumbraFallbacks(); }
   SubLightUse subLightUse(const Settings&) const override { return SubLightUse::automatic; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
@@ -45,6 +47,7 @@ class Pcss final : public Technique {
     shading.defines.push_back("HS_SPREAD_KERNEL " +
                               std::to_string(filterSide(depth, scene.settings.integer("pcss.size"))));
     addPenumbraBounds(scene, plan, depth, shading);
+    if (hasShortPrograms(scene)) shading.defines.emplace_back("HS_SHORT");
     return {};
   }
 };

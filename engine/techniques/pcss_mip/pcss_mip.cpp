@@ -30,9 +30,11 @@ class PcssMip final : public Technique {
                                {range("HS_SPREAD_KERNEL", settings()[0], {2, 9, 17}),
                                 {{{"HS_SEARCH 5"}}},
                                 castingAxis(),
-                                subLightAxis()},
+                                subLightAxis(),
+                                flag("HS_SHORT")},
                                {.twoDraws = true});
   }
+  std::vector<Fallback> fallbacks() const override { return penumbraFallbacks(); }
   SubLightUse subLightUse(const Settings&) const override { return SubLightUse::automatic; }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
@@ -41,16 +43,12 @@ class PcssMip final : public Technique {
  private:
   static Status plan(const LightScene& scene, PassPlan& plan) {
     const LightDepth depth = planLightDepths(scene, plan, MapContent::casters);
-    auto pyramid = planBlockerPyramid(scene, plan, depth);
-    if (!pyramid) return pyramid.error();
     ReceiverShading& shading = plan.shading;
     shading = mapReceiverShading(scene, plan, depth, "map/pcss_mip.frag");
     shading.defines.push_back("HS_SPREAD_KERNEL " +
                               std::to_string(filterSide(depth, scene.settings.integer("pcss-mip.size"))));
     addPenumbraBounds(scene, plan, depth, shading);
-    addSelfReceiverSearch(scene, shading);
-    addBlockerPyramid(shading, depth, *pyramid);
-    return {};
+    return addBlockerSearch(scene, plan, depth);
   }
 };
 }  // namespace

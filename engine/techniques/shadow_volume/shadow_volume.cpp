@@ -24,7 +24,8 @@ class ShadowVolume final : public Technique {
         .knownFailures =
             "area lights shadow as their centre does; fills the screen with volumes; a pixel in "
             "whose view one caster's volume is entered over 95 times may be wrong when counted "
-            "by blending"};
+            "by blending",
+        .takesOutlines = true};
     return info;
   }
 
@@ -40,8 +41,9 @@ class ShadowVolume final : public Technique {
   }
 
   std::vector<ShaderFamily> shaderFamilies() const override {
-    return joined({{{"volume/volume.vert", "volume/volume.frag"}, fullscreen("volume/volume.frag")},
-                   receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
+    return joined(
+        {{{"volume/volume.vert", "volume/volume.frag", {alphaAxis()}}, fullscreen("volume/volume.frag")},
+         receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
   }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };

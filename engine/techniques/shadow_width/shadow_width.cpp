@@ -148,6 +148,12 @@ class ShadowWidth final : public Technique {
   SubLightUse subLightUse(const Settings& settings) const override {
     return settings.choice("shadow-width.preset") == "paper" ? SubLightUse::none : SubLightUse::automatic;
   }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(),
+            shadedApart({{"sub_lights", "1"}, {"shadow-width.corners", "off"}},
+                        "one map of the whole light, no corners"),
+            {.text = "a filter as wide as the penumbra", .technique = "pcss-mip"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

@@ -57,6 +57,9 @@ class Vsm final : public Technique {
                                {range("HS_KERNEL", settings()[0], {1, 3, 9, 33}), flag("HS_MOMENTS_8")})},
                    mapReceiverFamilies("map/vsm.frag", {flag("HS_MOMENTS_8"), {{{"HS_LIT_OUTSIDE"}}}})});
   }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), shadedApart({{"vsm.storage", "8"}}, "moments of 8 bits")};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<PlainPlanner<&plan>>();
   }

@@ -146,7 +146,8 @@ class AdditiveWedges final : public Technique {
         .knownFailures =
             "too dark where penumbrae of several casters overlap; silhouettes are those of the "
             "light's centre; on a caster that is not convex, layers of it that overlap within a quadrant add "
-            "up"};
+            "up",
+        .takesOutlines = true};
     return info;
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
@@ -154,6 +155,9 @@ class AdditiveWedges final : public Technique {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
@@ -168,7 +172,8 @@ class ProbabilisticWedges final : public Technique {
         .knownFailures =
             "too light where casters side by side cover different parts of the light; silhouettes "
             "are those of the light's centre; on a caster that is not convex, layers of it that overlap "
-            "within a quadrant add up"};
+            "within a quadrant add up",
+        .takesOutlines = true};
     return info;
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
@@ -176,6 +181,9 @@ class ProbabilisticWedges final : public Technique {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<ProbabilisticPlanner>();
   }

@@ -59,7 +59,8 @@ class WedgesBlended final : public Technique {
         .knownFailures =
             "what both of two casters occlude within a quadrant is estimated; silhouettes are "
             "those of the light's centre; on a caster that is not convex, layers of it that overlap within a "
-            "quadrant add up"};
+            "quadrant add up",
+        .takesOutlines = true};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -92,6 +93,11 @@ class WedgesBlended final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {shadedApart(),
+            shadedApart({{"wedges-blended.cog", "off"}}, "no centres of gravity"),
+            {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

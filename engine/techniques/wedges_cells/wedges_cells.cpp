@@ -46,7 +46,8 @@ class WedgesCells final : public Technique {
         .knownFailures =
             "casters that overlap within one cell without touching count as independent; lists of faces grow "
             "with the triangles of casters that are not convex: where they exceed what fragments can walk, "
-            "pcss-mip takes the light"};
+            "pcss-mip takes the light",
+        .takesOutlines = true};
     return info;
   }
   std::vector<SettingInfo> settings() const override {
@@ -77,6 +78,12 @@ class WedgesCells final : public Technique {
          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return cellShaders(); }
+  std::vector<Fallback> fallbacks() const override {
+    return {
+        shadedApart(),
+        shadedApart({{"wedges-cells.bytes", "4"}, {"wedges-cells.route", "gather"}}, "one cell a sub-light"),
+        {.text = "distances to silhouettes in maps", .technique = "shadow-width"}};
+  }
   std::unique_ptr<LightPlanner> newPlanner() const override;
 };
 

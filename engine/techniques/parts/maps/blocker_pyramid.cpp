@@ -89,4 +89,17 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
   shading.uniforms.set("u_pyramidRange", casters);
 }
 
+Status addBlockerSearch(const LightScene& scene, PassPlan& plan, const LightDepth& depth) {
+  if (hasShortPrograms(scene)) {
+    plan.shading.defines.emplace_back("HS_SEARCH 5");
+    plan.shading.defines.emplace_back("HS_SHORT");
+    return {};
+  }
+  auto pyramid = planBlockerPyramid(scene, plan, depth);
+  if (!pyramid) return pyramid.error();
+  addSelfReceiverSearch(scene, plan.shading);
+  addBlockerPyramid(plan.shading, depth, *pyramid);
+  return {};
+}
+
 }  // namespace halfshadow::techniques

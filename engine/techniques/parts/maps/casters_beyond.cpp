@@ -100,7 +100,7 @@ void addSelfReceiverSearch(const LightScene& scene, ReceiverShading& shading) {
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
   for (const DrawItem& receiver : scene.receivers) {
     if (!receiver.casts && mayHaveCastersBeyond(scene, receiver))
-      shading.alsoCasting.push_back(receiver.mesh);
+      shading.alsoCasting.push_back(receiver.object);
   }
 }
 

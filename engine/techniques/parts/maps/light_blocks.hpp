@@ -5,6 +5,7 @@
 /// depth bounds of blocks, and a pyramid of occupancy and mean depth.
 #pragma once
 
+#include "techniques/core/fallback.hpp"
 #include "techniques/parts/maps/light_depth.hpp"
 
 namespace halfshadow::techniques {
@@ -28,6 +29,8 @@ int filterSide(const LightDepth& depth, int side);
 /// Width in texels of the widest penumbra that a receiver inside the fitted view can have.
 double widestPenumbraTexels(const LightScene& scene, const MapSpace& space);
 
+/// Fallbacks of filters that follow the penumbra; the last takes another technique.
+std::vector<Fallback> penumbraFallbacks();
 /// Adds bounds and penumbra scale to a receiver program that includes penumbra_bounds.glsl, and the way of
 /// skipping that goes with them: they find the lit and the umbra receivers.
 void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth& depth,
@@ -52,6 +55,10 @@ void addBlockerPyramid(ReceiverShading& shading, const LightDepth& depth, const 
 /// since a mean over a region takes their own surface for a blocker; so do those with casters beyond them,
 /// which block nothing and yet share cells with what does.
 void addSelfReceiverSearch(const LightScene& scene, ReceiverShading& shading);
+
+/// Adds to plan.shading how the mean blocker is found: by the pyramid and addSelfReceiverSearch(), or by taps
+/// alone where programs are to be short. Errors: those of planBlockerPyramid().
+Status addBlockerSearch(const LightScene& scene, PassPlan& plan, const LightDepth& depth);
 
 /// False only when no caster reaches beyond the receiver as seen from the light: all lie on the light's side
 /// of its plane. Receivers that are not flat, or too dense to look at in each frame, may have casters beyond.

@@ -36,7 +36,7 @@ std::vector<ShaderFamily> mapShaders() {
                      .needs = {"HS_FROM_DEPTH"},
                      .compiled = maps == 9});
   }
-  return {{"map/light_depth.vert", "map/light_depth.frag", {depthAxis()}},
+  return {{"map/light_depth.vert", "map/light_depth.frag", {depthAxis(), alphaAxis()}},
           fullscreen("map/block_bounds.frag",
                      {depthAxis(), values("HS_FACTOR", {2, 4, 8, 16, 32, 64}), flag("HS_FROM_DEPTH"), tiles}),
           fullscreen("map/block_dilate.frag",

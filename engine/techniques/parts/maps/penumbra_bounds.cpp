@@ -123,6 +123,14 @@ void addPenumbraBounds(const LightScene& scene, PassPlan& plan, const LightDepth
   shading.skip = preferredSkip(scene) == FilterSkip::stencil ? FilterSkip::stencil : FilterSkip::branch;
 }
 
+std::vector<Fallback> penumbraFallbacks() {
+  return {shadedApart(),
+          shadedApart({{"program_size", "short"}}, "short programs"),
+          shadedApart({{"program_size", "short"}, {"sub_lights", "1"}},
+                      "short programs over one map of the whole light"),
+          {.text = "a kernel of one width", .technique = "pcf"}};
+}
+
 int filterSide(const LightDepth& depth, int side) {
   if (depth.subLights == nullptr) return side;
   // So many that all maps together take a few more taps than one map would, or some more where each map's own

@@ -14,7 +14,8 @@ inline ShaderFamily receiverDepthShader() {
           {{{},
             {{"HS_FACET_NORMAL"}},
             {{"HS_FACETS", "HS_FACET_NORMAL"}},
-            {{"HS_FACETS"}, {"HS_DERIVATIVES", "!HS_NO_HIGHP"}}}}};
+            {{"HS_FACETS"}, {"HS_DERIVATIVES", "!HS_NO_HIGHP"}}},
+           alphaAxis()}};
 }
 
 }  // namespace halfshadow::techniques

@@ -44,11 +44,6 @@ std::vector<Triangle> trianglesOf(const DrawItem& item) {
   return triangles;
 }
 
-bool meet(const scene::Bounds& a, const scene::Bounds& b, double margin) {
-  return glm::all(glm::lessThanEqual(a.low - margin, b.high)) &&
-         glm::all(glm::lessThanEqual(b.low - margin, a.high));
-}
-
 bool inPlane(const Triangle& plane, const Triangle& other) {
   return std::ranges::all_of(other.corners, [&](const glm::dvec3& p) {
     return std::abs(glm::dot(plane.normal, p - plane.corners[0])) <= plane.rounding + other.rounding;
@@ -78,7 +73,7 @@ bool surfacesCoincide(const DrawItem& a, const DrawItem& b) {
   for (std::size_t i = 0; i < first.size(); ++i) {
     for (std::size_t k = 0; k < (same ? i : second.size()); ++k) {
       const Triangle &p = first[i], &q = second[k];
-      if (meet(p.bounds, q.bounds, p.rounding + q.rounding) && (inPlane(p, q) || inPlane(q, p)) &&
+      if (p.bounds.meets(q.bounds, p.rounding + q.rounding) && (inPlane(p, q) || inPlane(q, p)) &&
           overlap(p, q))
         return true;
     }
@@ -94,7 +89,7 @@ bool CoincidentReceivers::coincide(const DrawItem& a, const DrawItem& b) {
 }
 
 bool CoincidentReceivers::compare(const DrawItem& a, const DrawItem& b, double rounding) {
-  if (!meet(a.boundsWorld, b.boundsWorld, rounding)) return false;
+  if (!a.boundsWorld.meets(b.boundsWorld, rounding)) return false;
   if (hasFewTriangles(a) && hasFewTriangles(b)) return coincide(a, b);
   const glm::dvec3 low = glm::abs(a.boundsWorld.low - b.boundsWorld.low),
                    high = glm::abs(a.boundsWorld.high - b.boundsWorld.high);

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/parts/wedges/wedge_route.hpp"
 
+#include <algorithm>
+
 namespace halfshadow::techniques {
 namespace {
 using framegraph::AttachmentPoint;
@@ -13,6 +15,9 @@ constexpr std::size_t kMostDraws = 64, kMostVertices = 65536;
 
 std::vector<WedgeGroup> allTogether(const outlines::WedgePieces& pieces) {
   return {{{0, static_cast<std::uint32_t>(pieces.casters.size())}}};
+}
+bool hasHoles(const DrawItem& item) {
+  return item.alphaMask != nullptr;
 }
 device::BlendState blendOf(WedgeMix mix) {
   return mix == WedgeMix::add ? kAdd : kMultiply;
@@ -101,6 +106,9 @@ WedgeRoute WedgeRoutes::choose(const LightScene& scene, PassPlan& plan, std::str
   if (setting != "screen" && coincident_.among(scene.receivers)) {
     plan.note(scene.name + " wedges drawn by receivers",
               "surfaces of receivers coincide: both would be drawn on one pixel");
+  } else if (setting != "screen" && std::ranges::any_of(scene.receivers, hasHoles)) {
+    plan.note(scene.name + " wedges drawn by receivers",
+              "alpha cuts holes into receivers: what is seen through them would be drawn over");
   } else if (setting != "screen") {
     const std::size_t mostDraws = snapsCoarsely(scene.capabilities) ? 0 : kMostDraws;
     ReceiverDraws draws = receivers_.update(scene, *route.volumes_, route.groups_);
