@@ -37,7 +37,8 @@ Rectangle seenFrom(const scene::LightSilhouettes& silhouettes, const Entry& entr
 bool touch(const Entry& p, const Entry& q) {
   if (p.partWorld.meets(q.partWorld)) return true;
   const auto alongLight = [](const Entry& entry) {
-    return scene::Bounds{glm::dvec3(entry.low), {entry.high.x, entry.high.y, std::max(entry.high.z, entry.deepest)}};
+    return scene::Bounds{glm::dvec3(entry.low),
+                         {entry.high.x, entry.high.y, std::max(entry.high.z, entry.deepest)}};
   };
   return alongLight(p).meets(alongLight(q));
 }
