@@ -9,6 +9,10 @@
 
 namespace halfshadow::api {
 namespace {
+/// Sides of the largest images that any device samples: what claims more is a mistake, and would be read past
+/// its end.
+constexpr int kLongestSide = 65536;
+
 /// Some channels of an image, `each` bytes a texel.
 struct Texels {
   std::size_t width = 1, height = 1, each = 1;
@@ -114,10 +118,11 @@ device::TextureDesc textureDesc(const Texels& texels, const ObjectDesc& desc) {
 }  // namespace
 
 Status checkSurface(const ObjectDesc& desc) {
-  const int channels = desc.baseColorChannels;
-  if (desc.baseColorPixels &&
-      (desc.baseColorWidth <= 0 || desc.baseColorHeight <= 0 || (channels != 3 && channels != 4))) {
-    return Error{ErrorCode::invalidArgument, "a base colour image needs a positive size and 3 or 4 channels"};
+  const int channels = desc.baseColorChannels, longer = std::max(desc.baseColorWidth, desc.baseColorHeight);
+  if (desc.baseColorPixels && (std::min(desc.baseColorWidth, desc.baseColorHeight) <= 0 ||
+                               longer > kLongestSide || (channels != 3 && channels != 4))) {
+    return Error{ErrorCode::invalidArgument,
+                 "a base colour image needs sides of 1 to 65536 texels and 3 or 4 channels"};
   }
   for (const float component : desc.baseColor) {
     if (!std::isfinite(component))

@@ -72,7 +72,7 @@ struct ObjectDesc {
   bool receives = true;                           ///< is drawn, with visibility
   float baseColor[4] = {0.8f, 0.8f, 0.8f, 1.0f};  ///< linear
   const std::uint8_t* baseColorPixels = nullptr;  ///< sRGB, baseColorChannels (3 or 4) a pixel, top row first
-  int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;
+  int baseColorWidth = 0, baseColorHeight = 0, baseColorChannels = 4;  ///< sides: at most 65536 texels
   ImageWrap baseColorWrapU = ImageWrap::repeat, baseColorWrapV = ImageWrap::repeat;
   ImageFilter baseColorFilter = ImageFilter::linear;
   /// Above 0: where the alpha of base colour, image and vertex colour together is less, nothing is there: it
