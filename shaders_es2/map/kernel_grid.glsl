@@ -8,33 +8,46 @@
 #define HS_FETCHES_ALWAYS
 #endif
 
+#if HS_KERNEL == 4 && !defined(HS_SUB_LIGHTS_U)
+// Row by row; what all taps of a row have in common is added up once.
+#define HS_ROWS
+#ifdef HS_DEPTH_PACKED16
+#define HS_RowPlane HS_HIGHP vec4  // of each tap
+HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) {
+  return planeFirst + hs_gradient.x * vec4(0.0, 1.0, 2.0, 3.0);
+}
+float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
+  vec4 least = min(plane, 0.0) - bias;
+  return step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver)) +
+         step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver)) +
+         step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver)) +
+         step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+}
+#else
+#define HS_RowPlane HS_HIGHP float  // of the first tap, less the bias
+HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) { return planeFirst - bias; }
+float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
+  HS_HIGHP float least = -bias;
+  HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
+  return step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver)) +
+         step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver)) +
+         step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver)) +
+         step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+}
+#endif
+#endif
+
 float hs_pcfGrid() {
   HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
   // First texel centre of the kernel that is centred on the receiver.
   HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
   HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
   float lit = 0.0;
-#if HS_KERNEL == 4 && !defined(HS_SUB_LIGHTS_U)
-  // Row by row; what all taps of a row have in common is added up once.
+#ifdef HS_ROWS
   HS_HIGHP vec2 uv = first * u_map.y;
-#ifdef HS_DEPTH_PACKED16
-  HS_HIGHP vec4 plane = planeFirst + hs_gradient.x * vec4(0.0, 1.0, 2.0, 3.0);
+  HS_RowPlane plane = hs_firstRow(planeFirst, bias);
   for (int y = 0; y < 4; ++y) {
-    vec4 least = min(plane, 0.0) - bias;
-    lit += step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver));
-    lit += step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
-    lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
-    lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
-#else
-  HS_HIGHP float least = -bias;
-  HS_HIGHP float plane = planeFirst - bias;
-  for (int y = 0; y < 4; ++y) {
-    HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
-    lit += step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver));
-    lit += step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
-    lit += step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
-    lit += step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
-#endif
+    lit += hs_litRow(uv, plane, bias);
     HS_COUNT(4);
     uv.y += u_map.y;
     plane += hs_gradient.y;
@@ -66,6 +79,17 @@ float hs_pcfGridBounded(float count) {
   HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
   HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
   float lit = 0.0;
+#ifdef HS_ROWS
+  HS_HIGHP vec2 uv = first * u_map.y;
+  HS_RowPlane plane = hs_firstRow(planeFirst, bias);
+  for (int y = 0; y < 4; ++y) {
+    if (float(4 * y) >= count) break;
+    lit += hs_litRow(uv, plane, bias);
+    HS_COUNT(4);
+    uv.y += u_map.y;
+    plane += hs_gradient.y;
+  }
+#else
   HS_HIGHP vec2 offset = vec2(0.0);
   for (int i = 0; i < HS_KERNEL * HS_KERNEL; ++i) {
     if (float(i) >= count) break;
@@ -74,5 +98,6 @@ float hs_pcfGridBounded(float count) {
     float wrapped = step(float(HS_KERNEL) - 0.5, offset.x);
     offset += wrapped * vec2(-float(HS_KERNEL), 1.0);
   }
+#endif
   return lit * (1.0 / float(HS_KERNEL * HS_KERNEL));
 }
