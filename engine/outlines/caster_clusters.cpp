@@ -3,7 +3,6 @@
 #include "outlines/caster_clusters.hpp"
 
 #include <algorithm>
-#include <ranges>
 
 #include "scene/covered_levels.hpp"
 #include "scene/edge_uses.hpp"
@@ -22,13 +21,13 @@ struct Rectangle {
 /// What a caster covers, seen from the source point.
 Rectangle seenFrom(const scene::LightSilhouettes& silhouettes, const Entry& entry, const glm::dvec2& source) {
   Rectangle seen;
-  for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l) {
-    for (const glm::dvec3& p : silhouettes.loopPoints(l)) {
+  silhouettes.forEachLoop(entry, [&](std::span<const glm::dvec3> loop) {
+    for (const glm::dvec3& p : loop) {
       const glm::dvec2 flat = (glm::dvec2(p) - source) / p.z;
       seen.low = glm::min(seen.low, flat);
       seen.high = glm::max(seen.high, flat);
     }
-  }
+  });
   return seen;
 }
 
@@ -145,8 +144,8 @@ class ClusterFinder {
       if (k > 0 && !loops_.casters[c].layersBefore) ++surface;
       const auto side =
           entries_[c]->turnedAway ? scene::CoveredLevels::Side::away : scene::CoveredLevels::Side::towards;
-      for (std::uint32_t l = entries_[c]->firstLoop; l < entries_[c]->firstLoop + entries_[c]->loopCount; ++l)
-        arrangement_.addLoop(silhouettes_.loopPoints(l), surface, side);
+      silhouettes_.forEachLoop(
+          *entries_[c], [&](std::span<const glm::dvec3> loop) { arrangement_.addLoop(loop, surface, side); });
     }
     if (!arrangement_.find(levels_, 1) || levels_.empty()) return false;
     together.clear();
@@ -174,9 +173,9 @@ bool coveredByAny(const scene::LightSilhouettes& outlines, std::span<const std::
   if (group.size() < 2) return false;
   arrangement.start(glm::dvec2(0.0));
   for (std::uint32_t k = 0; k < group.size(); ++k) {
-    const Entry& entry = outlines.casters[group[k]];
-    for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l)
-      arrangement.addLoop(outlines.loopPoints(l), k, scene::CoveredLevels::Side::towards);
+    outlines.forEachLoop(outlines.casters[group[k]], [&](std::span<const glm::dvec3> loop) {
+      arrangement.addLoop(loop, k, scene::CoveredLevels::Side::towards);
+    });
   }
   return arrangement.find(levels, 1) && !levels.empty();
 }

@@ -132,9 +132,9 @@ void LightSilhouettes::addLoop(std::span<const glm::dvec3> loop) {
 }
 
 void LightSilhouettes::addCaster(const LightSilhouettes& other, Caster entry) {
-  const std::uint32_t first = entry.firstLoop;
-  entry.firstLoop = static_cast<std::uint32_t>(loops.size());
-  for (std::uint32_t l = first; l < first + entry.loopCount; ++l) addLoop(other.loopPoints(l));
+  const auto firstLoop = static_cast<std::uint32_t>(loops.size());
+  other.forEachLoop(entry, [&](std::span<const glm::dvec3> loop) { addLoop(loop); });
+  entry.firstLoop = firstLoop;
   casters.push_back(entry);
 }
 

@@ -81,8 +81,11 @@ struct LightSilhouettes {
 
   void clear();
   void append(const LightSilhouettes& other);  ///< all but the counters
-  std::span<const glm::dvec3> loopPoints(std::uint32_t loop) const {
-    return std::span(points).subspan(loops[loop].first, loops[loop].count);
+  /// Calls `use` with the points of each loop of an entry of this one.
+  template <typename Use>
+  void forEachLoop(const Caster& entry, const Use& use) const {
+    for (const Loop& loop : std::span(loops).subspan(entry.firstLoop, entry.loopCount))
+      use(std::span(points).subspan(loop.first, loop.count));
   }
   void addLoop(std::span<const glm::dvec3> loop);
   /// Appends an entry of `other`, which is not this one, with its loops.

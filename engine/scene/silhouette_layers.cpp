@@ -49,8 +49,9 @@ class LayerSplitter {
     arrangement_.start(sourcePoint_);
     for (const LightSilhouettes::Caster& entry : entries) {
       const auto side = entry.turnedAway ? CoveredLevels::Side::away : CoveredLevels::Side::towards;
-      for (std::uint32_t l = entry.firstLoop; l < entry.firstLoop + entry.loopCount; ++l)
-        arrangement_.addLoop(source_.loopPoints(l), entry.part - entries[0].part, side);
+      source_.forEachLoop(entry, [&](std::span<const glm::dvec3> loop) {
+        arrangement_.addLoop(loop, entry.part - entries[0].part, side);
+      });
     }
     return arrangement_.find(levels);
   }
