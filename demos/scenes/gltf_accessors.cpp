@@ -10,8 +10,17 @@
 
 namespace halfshadow::scenes {
 namespace {
-// An accessor without bytes of its own (all zeros, then sparse) could ask for any amount of memory.
 constexpr std::size_t kMostElements = std::size_t{1} << 26;
+/// An accessor without bytes of its own (all zeros, then sparse) could ask for any amount of memory: a few
+/// hundred bytes of file for gigabytes. It stands beside others, which have bytes for as many.
+constexpr std::size_t kMostZeros = std::size_t{1} << 18;
+
+bool standsBesideAsMany(const tinygltf::Model& model, std::size_t count) {
+  return std::ranges::any_of(model.accessors, [&](const tinygltf::Accessor& accessor) {
+    const Result<ByteRange> range = bytesOfView(model, accessor.bufferView);
+    return range.ok() && accessor.count >= count && accessor.count <= range->size;
+  });
+}
 
 std::size_t componentsOfType(int type) {
   switch (type) {
@@ -199,6 +208,9 @@ Result<AccessorValues> readAccessor(const tinygltf::Model& model, int index, con
                        std::to_string(accessor.bufferView) +
                        "; the file is truncated or its counts are wrong");
     }
+  } else if (accessor.count > kMostZeros && !standsBesideAsMany(model, accessor.count)) {
+    return malformed(what + " has " + std::to_string(accessor.count) +
+                     " elements but no buffer view; give it one, or make it as long as the mesh's others");
   }  // else all zeros, but for the sparse part
   values.numbers.assign(values.count * values.components, 0.0);
   if (accessor.bufferView >= 0) {

@@ -225,6 +225,10 @@ TEST_F(Refusals, FromC) {
     EXPECT_NE(halfshadow_read_output(engine, nullptr, 0), HALFSHADOW_OK);
     EXPECT_NE(halfshadow_trim(engine, static_cast<HalfshadowTrim>(7)), HALFSHADOW_OK);
     EXPECT_EQ(halfshadow_output_texture(engine), 0u);
+    EXPECT_NE(halfshadow_program_proofs(engine), nullptr);
+    EXPECT_NE(halfshadow_context_restored(nullptr), HALFSHADOW_OK);
+    EXPECT_NE(halfshadow_set_memory_limit(nullptr, 1), HALFSHADOW_OK);
+    EXPECT_NE(halfshadow_read_output(engine, nullptr, 0), HALFSHADOW_OK);
     EXPECT_NE(halfshadow_message(engine), nullptr);
     if (engine) {
       EXPECT_NE(std::string(halfshadow_message(engine)), "");
