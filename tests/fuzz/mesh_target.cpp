@@ -9,6 +9,7 @@
 #include "scene/caster_groups.hpp"
 #include "scene/convex_hull.hpp"
 #include "scene/light_silhouettes.hpp"
+#include "scene/place.hpp"
 #include "scene/silhouette_check.hpp"
 #include "scene/solidity.hpp"
 #include "scene/supporting_planes.hpp"
@@ -94,7 +95,7 @@ void checkSilhouettes(const scene::HalfEdgeMesh& mesh, const glm::dvec3& light) 
   }
 }
 
-/// As techniques ask for them; engines take no mesh whose coordinates reach beyond what a float can square.
+/// As techniques ask for them.
 void testLightSpace(std::span<const scene::PlacedCaster> casters, const glm::dvec3& light) {
   const scene::AreaLight source{
       .centerWorld = light + glm::dvec3(0, 6, 0), .halfU = {0.5, 0, 0}, .halfV = {0, 0, -0.5}};
@@ -124,9 +125,10 @@ void testTogether(const scene::TriangleMesh& mesh, const scene::CasterGeometry& 
   testLightSpace(groups.placed(), light);
 }
 
-bool isModest(const scene::TriangleMesh& mesh) {
+/// Others must be scaled down, or engines refuse them.
+bool isPlaceable(const scene::TriangleMesh& mesh) {
   const scene::Bounds bounds = scene::boundsOf(mesh);
-  return std::max(glm::length(bounds.low), glm::length(bounds.high)) < 1e9;
+  return scene::isPlace(bounds.low) && scene::isPlace(bounds.high);
 }
 
 void test(Input input) {
@@ -150,7 +152,7 @@ void test(Input input) {
   scene::CasterGeometry geometry;
   checkHalfEdges(geometry.halfEdges(mesh));
   checkSilhouettes(geometry.halfEdges(mesh), source.light);
-  if (isModest(mesh)) {
+  if (isPlaceable(mesh)) {
     const scene::PlacedCaster alone{.mesh = &geometry.halfEdges(mesh)};
     testLightSpace({&alone, 1}, source.light);
     if ((source.flags & kTogether) != 0) testTogether(mesh, geometry, source.light);

@@ -11,6 +11,7 @@
 #include "planner/light_fit.hpp"
 #include "planner/light_reach.hpp"
 #include "planner/sub_lights.hpp"
+#include "scene/place.hpp"
 #include "scenes/shapes.hpp"
 
 namespace halfshadow::fuzz {
@@ -74,7 +75,7 @@ class World {
           objects_.erase(objects_.begin() + static_cast<std::ptrdiff_t>(reader_.below(objects_.size())));
         return;
       case 2:
-        if (!objects_.empty()) placeObject(objects_[reader_.below(objects_.size())]);
+        if (!objects_.empty()) (void)placeObject(objects_[reader_.below(objects_.size())]);
         return;
       case 3:
         return setLight();
@@ -93,21 +94,21 @@ class World {
       object.mesh = shape.mesh.get(), object.support = &shape.support, object.enclosing = &shape.enclosing;
     boundsObject_.resize(lastId_ + 1);
     boundsObject_[lastId_] = scene::boundsOf(*shape.mesh);
-    placeObject(object);
-    if (objects_.size() < 12) objects_.push_back(object);
+    if (placeObject(object) && objects_.size() < 12) objects_.push_back(object);
   }
-  void placeObject(planner::PlannedObject& object) {
+  /// False, and nothing done, where engines refuse.
+  bool placeObject(planner::PlannedObject& object) {
     glm::dmat4 world(1.0);
     for (int axis = 0; axis < 3; ++axis) world[axis][axis] = reader_.number();
     world[1][0] = reader_.plainNumber() / 8.0;
     world[3] = glm::dvec4(place(reader_), 1.0);
-    // Engines refuse the others.
-    for (int column = 0; column < 4; ++column)
-      for (int row = 0; row < 3; ++row)
-        if (!(std::abs(world[column][row]) < 1e18)) return;
+    const scene::Bounds bounds = scene::transformed(world, boundsObject_[object.id]);
+    if (!scene::isPlace(bounds.low) || !scene::isPlace(bounds.high)) return false;
+    if (glm::determinant(glm::dmat3(world)) == 0.0) return false;
     object.worldFromObject = world;
-    object.boundsWorld = scene::transformed(world, boundsObject_[object.id]);
+    object.boundsWorld = bounds;
     object.revision = ++lastRevision_;
+    return true;
   }
   void setLight() {
     const std::size_t which = reader_.below(3);

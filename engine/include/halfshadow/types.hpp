@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Plain data of the public interface: no OpenGL, no mathematics library, no containers.
+/// Plain data of the public interface: no OpenGL, no mathematics library, no containers. Places and lengths
+/// are in world units, within 1e30 of the origin along each axis: what lies beyond is refused, as NaN is.
 #pragma once
 
 #include <cstddef>
