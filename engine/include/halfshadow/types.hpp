@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Plain data of the public interface: no OpenGL, no mathematics library, no containers. Places and lengths
-/// are in world units, within 1e30 of the origin along each axis: what lies beyond is refused, as NaN is.
+/// Plain data: no OpenGL, no mathematics library, no containers. Places lie within 1e30 of the origin.
 #pragma once
 
 #include <cstddef>
