@@ -62,11 +62,11 @@ Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld,
     side = glm::cross(leastAlignedAxis(n), n);
   const glm::dvec3 u = glm::normalize(side);
   const glm::dvec3 v = glm::cross(n, u);
-  return AreaLight{.centerWorld = centerWorld,
-                   .halfU = u * (sizeU / 2),
-                   .halfV = v * (sizeV / 2),
-                   .emission = n,
-                   .referenceDistance = glm::length(aim)};
+  Result<AreaLight> light = areaLightFromVectors(centerWorld, u * (sizeU / 2), v * (sizeV / 2));
+  if (!light) return light;
+  light->emission = n;
+  light->referenceDistance = glm::length(aim);
+  return light;
 }
 
 glm::dvec3 emissionDirection(const AreaLight& light) {

@@ -4,6 +4,7 @@
 /// Bytes as decisions, for targets whose inputs are no files; and those decisions as bytes, for seeds.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>

@@ -148,15 +148,15 @@ class World {
 
 void checkPlan(const planner::FrameInput& input, const planner::FramePlan& plan) {
   require(plan.lights.size() == input.lights.size(), "a light has no plan");
-  require(std::ranges::is_sorted(plan.receivers, std::less_equal<>()) ||
-              std::ranges::adjacent_find(plan.receivers) == plan.receivers.end(),
-          "a receiver is drawn twice");
+  std::vector<std::uint32_t> receivers = plan.receivers;
+  std::ranges::sort(receivers);
+  require(std::ranges::adjacent_find(receivers) == receivers.end(), "a receiver is drawn twice");
   for (const std::uint32_t receiver : plan.receivers)
     require(receiver < input.objects.size() && input.objects[receiver].receives,
             "what is no receiver is one");
   for (const planner::LightPlan& light : plan.lights) {
     require(light.contentKey != 0, "a light view without a key");
-    require(light.active == !light.casters.empty() || light.active, "a light without casters is at work");
+    require(!light.active || !light.casters.empty(), "a light without casters is at work");
     require(std::ranges::adjacent_find(light.casters, std::greater_equal<>()) == light.casters.end(),
             "casters are not in order, once each");
     for (const std::uint32_t caster : light.casters)

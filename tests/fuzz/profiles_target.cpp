@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Device profiles and suites of measurements: JSON that users write.
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
