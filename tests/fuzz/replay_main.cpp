@@ -36,7 +36,7 @@ void keepRunning() {
     written += static_cast<std::size_t>(step);
   }
   close(file);
-  for (const char* text : {"the input is kept in ", failurePath, "\n"}) {
+  for (const char* const text : {"the input is kept in ", static_cast<const char*>(failurePath), "\n"}) {
     if (write(STDERR_FILENO, text, std::strlen(text)) < 0) return;
   }
 }
