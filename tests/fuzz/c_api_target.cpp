@@ -437,6 +437,17 @@ std::vector<Bytes> seeds() {
     writer.byte(3).byte(0).byte(12).byte(0).byte(0).byte(1);                      // the square goes
     all.push_back(std::move(writer.bytes));
   }
+  // Less memory than a frame needs, then enough; a context that goes and comes back; a host's framebuffer.
+  InputWriter scarce;
+  scarce.byte(0).byte(1 | 4).byte(1).byte(2 | 4).byte(4).byte(1).byte(0);
+  scarce.byte(10).byte(1).byte(10).byte(12).byte(8).byte(64).byte(64).byte(1).byte(1);
+  scarce.byte(10).byte(0).byte(12).byte(8).byte(64).byte(64).byte(1).byte(1);
+  all.push_back(std::move(scarce.bytes));
+  InputWriter returning;
+  returning.byte(0).byte(1 | 4).byte(1).byte(2 | 4 | 16).numbers({1, 1, 1, 0.5}).byte(2).byte(2).byte(4);
+  returning.byte(99).number(0.5).byte(4).byte(1).byte(0).byte(12).byte(0).byte(1).byte(1);
+  returning.byte(11).byte(0).byte(12).byte(0).byte(1).byte(1).byte(12).byte(64).byte(0).byte(20).number(0);
+  all.push_back(std::move(returning.bytes));
   return all;
 }
 }  // namespace
