@@ -75,8 +75,11 @@ TEST_F(Driver, EveryCallOfEveryTechniqueMayFail) {
     const std::uint64_t calls = callsOfAFrame();
     ASSERT_GT(calls, 20u);
     for (const Fault fault : {Fault::outOfMemory, Fault::invalid, Fault::refused, Fault::dropped}) {
+      // All of them where a frame is short and is tried again: what the first try left must not stay.
+      const bool all = technique == "hard" && fault == Fault::outOfMemory;
+      const std::uint64_t each = all ? 1 : stride(211);
       // Other calls in each round, so that strides meet all in the end.
-      for (std::uint64_t call = step++ % stride(211); call < calls; call += stride(211)) {
+      for (std::uint64_t call = step++ % each; call < calls; call += each) {
         forget();
         faultyDriver().arm(fault, call);
         const Outcome outcome = engine().render(renderer().desc());
