@@ -178,6 +178,13 @@ Result<ByteRange> bytesOfView(const tinygltf::Model& model, int viewIndex) {
   return ByteRange{bytes.data() + view.byteOffset, view.byteLength};
 }
 
+int indexIn(const tinygltf::Value& number) {
+  if (!number.IsNumber()) return -1;
+  const double value = number.GetNumberAsDouble();
+  const bool fits = value >= 0.0 && value <= std::numeric_limits<int>::max() && value == std::floor(value);
+  return fits ? static_cast<int>(value) : -1;
+}
+
 Result<AccessorValues> readAccessor(const tinygltf::Model& model, int index, const AccessorUse& use) {
   const std::string what = use.name + " (accessor " + std::to_string(index) + ")";
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {

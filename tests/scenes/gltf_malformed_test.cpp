@@ -172,6 +172,18 @@ const Damage kDamages[] = {
        w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 3}}}};
      },
      kMalformed, "light"},
+    {"LightBeyondInt",
+     [](auto& w) {
+       w.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({{{"type", "point"}}})}}}};
+       w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 4e9}}}};
+     },
+     kMalformed, "light"},
+    {"LightBetweenTwo",
+     [](auto& w) {
+       w.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({{{"type", "point"}}})}}}};
+       w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0.5}}}};
+     },
+     kMalformed, "light"},
     {"LightSizeNegative",
      [](auto& w) {
        w.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({{{"type", "point"}}})}}}};
