@@ -74,6 +74,8 @@ TEST_F(Driver, EveryCallOfEveryTechniqueMayFail) {
     const Image wanted = renderer().render();
     const std::uint64_t calls = callsOfAFrame();
     ASSERT_GT(calls, 20u);
+    std::fprintf(stderr, "%s: %llu calls a frame\n", technique.c_str(),
+                 static_cast<unsigned long long>(calls));
     for (const Fault fault : {Fault::outOfMemory, Fault::invalid, Fault::refused, Fault::dropped}) {
       // All of them where a frame is short and is tried again: what the first try left must not stay.
       const bool all = technique == "hard" && fault == Fault::outOfMemory;
