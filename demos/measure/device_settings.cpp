@@ -52,13 +52,15 @@ bool matches(const json& profile, const std::string& renderer) {
 
 Result<std::vector<Setting>> deviceSettings(const std::string& source, const std::string& renderer) {
   if (source == "none") return std::vector<Setting>{};
-  if (source != "auto") {
-    auto profile = readProfile(source);
-    if (!profile) return profile.error();
-    return settingsOf(source, *profile);
-  }
+  if (source == "auto") return deviceSettingsIn(HALFSHADOW_DEVICE_PROFILES, renderer);
+  auto profile = readProfile(source);
+  if (!profile) return profile.error();
+  return settingsOf(source, *profile);
+}
+
+Result<std::vector<Setting>> deviceSettingsIn(const std::string& folder, const std::string& renderer) {
   std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(HALFSHADOW_DEVICE_PROFILES, missing)) {
+  for (const auto& entry : fs::directory_iterator(folder, missing)) {
     if (entry.path().extension() != ".json") continue;
     auto profile = readProfile(entry.path().string());
     if (!profile) return profile.error();

@@ -18,4 +18,7 @@ namespace halfshadow::measure {
 /// fileMalformed (naming the file).
 Result<std::vector<Setting>> deviceSettings(const std::string& source, const std::string& renderer);
 
+/// What "auto" does, with the profiles of another folder.
+Result<std::vector<Setting>> deviceSettingsIn(const std::string& folder, const std::string& renderer);
+
 }  // namespace halfshadow::measure

@@ -10,10 +10,14 @@ namespace halfshadow::profile {
 namespace {
 using nlohmann::json;
 
+bool isListOfObjects(const json& file, const char* key) {
+  return file.contains(key) && file[key].is_array() &&
+         std::ranges::all_of(file[key], [](const json& entry) { return entry.is_object(); });
+}
+
 bool isCounts(const json& file) {
-  return file.is_object() && file.contains("columns") && file["columns"].is_array() &&
-         file.contains("note") && file["note"].is_string() && file.contains("counts") &&
-         file["counts"].is_array();
+  return file.is_object() && file.contains("note") && file["note"].is_string() &&
+         isListOfObjects(file, "columns") && isListOfObjects(file, "counts");
 }
 
 bool profiles(const Suite& suite, const std::string& technique) {

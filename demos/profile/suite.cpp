@@ -6,7 +6,9 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
 namespace halfshadow::profile {
 namespace {
@@ -43,15 +45,25 @@ SuiteScene sceneOf(const nlohmann::json& json) {
   return {.label = json.value("label", source), .source = source, .camera = json.value("camera", "")};
 }
 
+/// Throws where it is no whole number that an int holds.
+int countOf(const nlohmann::json& json) {
+  if (!json.is_number_integer()) throw std::out_of_range("a size or count is not a whole number");
+  const auto value = json.get<double>();
+  if (!(value >= 0.0 && value <= std::numeric_limits<int>::max()))
+    throw std::out_of_range("a size or count is not from 0 to " +
+                            std::to_string(std::numeric_limits<int>::max()));
+  return static_cast<int>(value);
+}
+
 /// Throws nlohmann's exceptions for missing fields and wrong types.
 Suite suiteOf(const nlohmann::json& json) {
   Suite suite;
   suite.name = json.at("name").get<std::string>();
   suite.description = json.at("description").get<std::string>();
-  suite.width = json.at("size").at(0).get<int>();
-  suite.height = json.at("size").at(1).get<int>();
-  suite.samples = json.at("samples").get<int>();
-  suite.repetitions = json.at("repetitions").get<int>();
+  suite.width = countOf(json.at("size").at(0));
+  suite.height = countOf(json.at("size").at(1));
+  suite.samples = countOf(json.at("samples"));
+  suite.repetitions = countOf(json.at("repetitions"));
   for (const auto& entry : json.at("scenes")) suite.scenes.push_back(sceneOf(entry));
   for (const auto& entry : json.at("configurations")) {
     SuiteConfiguration configuration;

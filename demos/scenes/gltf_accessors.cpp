@@ -10,8 +10,17 @@
 
 namespace halfshadow::scenes {
 namespace {
-// An accessor without bytes of its own (all zeros, then sparse) could ask for any amount of memory.
 constexpr std::size_t kMostElements = std::size_t{1} << 26;
+/// An accessor without bytes of its own (all zeros, then sparse) could ask for any amount of memory: a few
+/// hundred bytes of file for gigabytes. It stands beside others, which have bytes for as many.
+constexpr std::size_t kMostZeros = std::size_t{1} << 18;
+
+bool standsBesideAsMany(const tinygltf::Model& model, std::size_t count) {
+  return std::ranges::any_of(model.accessors, [&](const tinygltf::Accessor& accessor) {
+    const Result<ByteRange> range = bytesOfView(model, accessor.bufferView);
+    return range.ok() && accessor.count >= count && accessor.count <= range->size;
+  });
+}
 
 std::size_t componentsOfType(int type) {
   switch (type) {
@@ -169,6 +178,13 @@ Result<ByteRange> bytesOfView(const tinygltf::Model& model, int viewIndex) {
   return ByteRange{bytes.data() + view.byteOffset, view.byteLength};
 }
 
+int indexIn(const tinygltf::Value& number) {
+  if (!number.IsNumber()) return -1;
+  const double value = number.GetNumberAsDouble();
+  const bool fits = value >= 0.0 && value <= std::numeric_limits<int>::max() && value == std::floor(value);
+  return fits ? static_cast<int>(value) : -1;
+}
+
 Result<AccessorValues> readAccessor(const tinygltf::Model& model, int index, const AccessorUse& use) {
   const std::string what = use.name + " (accessor " + std::to_string(index) + ")";
   if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
@@ -199,6 +215,9 @@ Result<AccessorValues> readAccessor(const tinygltf::Model& model, int index, con
                        std::to_string(accessor.bufferView) +
                        "; the file is truncated or its counts are wrong");
     }
+  } else if (accessor.count > kMostZeros && !standsBesideAsMany(model, accessor.count)) {
+    return malformed(what + " has " + std::to_string(accessor.count) +
+                     " elements but no buffer view; give it one, or make it as long as the mesh's others");
   }  // else all zeros, but for the sparse part
   values.numbers.assign(values.count * values.components, 0.0);
   if (accessor.bufferView >= 0) {

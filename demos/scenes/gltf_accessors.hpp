@@ -38,4 +38,8 @@ struct ByteRange {
 };
 Result<ByteRange> bytesOfView(const tinygltf::Model& model, int viewIndex);
 
+/// What an extension names by its number; -1, which nothing has, where it is no whole number from 0 that an
+/// int holds.
+int indexIn(const tinygltf::Value& number);
+
 }  // namespace halfshadow::scenes

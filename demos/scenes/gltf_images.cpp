@@ -20,8 +20,7 @@ constexpr std::array<const char*, 4> kOtherSources = {"EXT_texture_webp", "KHR_t
 int sourceIn(const tinygltf::Texture& texture, const char* extension) {
   const auto found = texture.extensions.find(extension);
   if (found == texture.extensions.end() || !found->second.IsObject()) return -1;
-  const tinygltf::Value& source = found->second.Get("source");
-  return source.IsNumber() ? source.GetNumberAsInt() : -1;
+  return indexIn(found->second.Get("source"));
 }
 
 bool begins(const ByteRange& bytes, std::string_view magic) {

@@ -16,7 +16,7 @@ Result<AccessorValues> attributeOf(const tinygltf::Model& model, const tinygltf:
                                    const char* name, std::size_t components, const std::string& what) {
   const tinygltf::Value& accessor = attributes.Get(name);
   if (!accessor.IsNumber()) return AccessorValues{.components = components};
-  return readAccessor(model, accessor.GetNumberAsInt(),
+  return readAccessor(model, indexIn(accessor),
                       {.name = std::string(name) + " of the instances of " + what, .components = components});
 }
 }  // namespace

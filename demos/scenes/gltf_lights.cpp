@@ -6,6 +6,8 @@
 #include <cmath>
 #include <glm/trigonometric.hpp>
 
+#include "scenes/gltf_accessors.hpp"
+
 namespace halfshadow::scenes {
 namespace {
 /// The sun's diameter as seen from the Earth.
@@ -73,9 +75,7 @@ Result<std::optional<PendingLight>> lightOf(const tinygltf::Model& model, const 
   const auto found = node.extensions.find("KHR_lights_punctual");
   if (found == node.extensions.end()) return std::optional<PendingLight>();
   const tinygltf::Value& extension = found->second;
-  const int index = extension.IsObject() && extension.Has("light") && extension.Get("light").IsNumber()
-                        ? extension.Get("light").GetNumberAsInt()
-                        : -1;
+  const int index = extension.IsObject() ? indexIn(extension.Get("light")) : -1;
   if (index < 0 || static_cast<std::size_t>(index) >= model.lights.size()) {
     return malformed(what + " uses a light that does not exist; the file has " +
                      std::to_string(model.lights.size()));

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/gltf_accessors.hpp"
 #include "scenes/gltf_images.hpp"
 
 namespace halfshadow::scenes {
@@ -75,8 +76,7 @@ BaseColor baseColorOf(const tinygltf::Material& source) {
     if (factor.Get(c).IsNumber()) base.factor[c] = factor.Get(c).GetNumberAsDouble();
   }
   const tinygltf::Value& texture = found->second.Get("diffuseTexture");
-  base.texture =
-      texture.IsObject() && texture.Get("index").IsNumber() ? texture.Get("index").GetNumberAsInt() : -1;
+  base.texture = texture.IsObject() ? indexIn(texture.Get("index")) : -1;
   return base;
 }
 }  // namespace
@@ -100,8 +100,7 @@ TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
   // Counter-clockwise as seen, with v downward.
   result.imageFromFile =
       glm::dmat3x2(c * scale.x, -s * scale.x, s * scale.y, c * scale.y, offset.x, offset.y);
-  const tinygltf::Value& set = transform.Get("texCoord");
-  if (set.IsNumber()) result.set = set.GetNumberAsInt();
+  if (const int set = indexIn(transform.Get("texCoord")); set >= 0) result.set = set;
   return result;
 }
 

@@ -47,6 +47,9 @@ std::optional<Encoded> encodedOf(const Json& extension, const tinygltf::Model& m
   if (offset > bytes.size() || *length > bytes.size() - offset) return std::nullopt;
   constexpr std::uint64_t kMostBytes = std::uint64_t{1} << 31;
   if (*stride == 0 || *stride > 256 || *count > kMostBytes / *stride) return std::nullopt;
+  // The densest codes are two bits for 256 vertices of a byte each: more would be asked for in vain.
+  constexpr std::uint64_t kMostBytesOfOne = 2048;
+  if (*count * *stride > kMostBytesOfOne * *length) return std::nullopt;
   return Encoded{.bytes = bytes.data() + offset,
                  .byteCount = *length,
                  .count = *count,

@@ -193,7 +193,7 @@ HalfshadowError halfshadow_read_output(HalfshadowEngine* engine, uint8_t* rgba, 
 }
 
 const char* halfshadow_program_proofs(HalfshadowEngine* engine) {
-  return engine->engine->programProofs();
+  return engine ? engine->engine->programProofs() : "";
 }
 
 void halfshadow_context_lost(HalfshadowEngine* engine) {

@@ -8,6 +8,7 @@
 
 #include "api/engine_state.hpp"
 #include "api/object_textures.hpp"
+#include "scene/place.hpp"
 
 namespace halfshadow {
 namespace {
@@ -28,6 +29,14 @@ Result<glm::dmat4> checkedTransform(const double matrix[16]) {
     return Error{ErrorCode::invalidArgument, "the object's transform is singular (a scale of zero?)"};
   }
   return transform;
+}
+
+/// `bounds`: of a mesh before the transform.
+Status checkPlace(const glm::dmat4& worldFromMesh, const scene::Bounds& bounds) {
+  const scene::Bounds world = scene::transformed(worldFromMesh, bounds);
+  if (scene::isPlace(world.low) && scene::isPlace(world.high)) return {};
+  return Error{ErrorCode::invalidArgument,
+               "the object reaches beyond 1e30 along an axis; give smaller positions or a smaller transform"};
 }
 
 Status addImages(gl::Context& context, const ObjectDesc& desc, EngineObject& object) {
@@ -60,6 +69,8 @@ Outcome Engine::State::addObject(const ObjectDesc& desc, ObjectId& id) {
   object.mesh = std::move(mesh).value();
   if (Status s = state.context->checkErrors("adding an object"); !s) return state.fail(s.error());
   object.place(*transform);
+  if (Status status = checkPlace(object.worldFromObject, object.mesh->bounds()); !status)
+    return state.fail(status.error());
   object.casts = desc.casts;
   object.receives = desc.receives;
   object.baseColor = glm::make_vec4(desc.baseColor);
@@ -82,6 +93,9 @@ Outcome Engine::setTransform(ObjectId id, const double worldFromObject[16]) {
     auto transform = checkedTransform(worldFromObject);
     if (!transform) return state.fail(transform.error());
     if (found->second.worldFromHost == *transform) return {};
+    const api::ObjectMesh& mesh = *found->second.mesh;
+    if (Status status = checkPlace(glm::translate(*transform, mesh.recenteredBy()), mesh.bounds()); !status)
+      return state.fail(status.error());
     state.changed(found->second);
     found->second.place(*transform);
     return {};
@@ -108,13 +122,16 @@ Outcome Engine::State::setVertices(ObjectId id, const MeshDesc& desc) {
   }
   // Checked before anything is replaced: a refused call leaves the object as it was.
   std::vector<glm::vec3> positions(desc.vertexCount);
+  scene::Bounds bounds;
   const auto* bytes = reinterpret_cast<const std::byte*>(desc.positions);
   for (std::uint32_t i = 0; i < desc.vertexCount; ++i) {
     std::memcpy(&positions[i], bytes + i * desc.positionStrideBytes, 12);
     if (!std::isfinite(positions[i].x) || !std::isfinite(positions[i].y) || !std::isfinite(positions[i].z)) {
       return state.fail({ErrorCode::invalidMesh, "vertex " + std::to_string(i) + " is NaN or infinite"});
     }
+    bounds.include(glm::dvec3(positions[i]));
   }
+  if (Status status = checkPlace(object.worldFromHost, bounds); !status) return state.fail(status.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   std::shared_ptr<api::ObjectMesh> mesh = object.mesh;
   if (mesh.use_count() > 2) {

@@ -124,6 +124,8 @@ Result<Program> Program::link(Context& context, std::string_view vertexSource,
   if (linked != GL_TRUE) return failure("the stages do not link", programLog(gl, program.name()));
 
   program.reflect(context, samplerNames);
+  // It is kept, and with it what it was asked: no later frame would ask again.
+  if (Status s = context.checkErrors(("Program " + program.label_).c_str()); !s) return s.error();
   return program;
 }
 
@@ -138,12 +140,15 @@ void Program::reflect(Context& context, const std::vector<std::string>& samplerN
     std::uint32_t hash;
   };
   std::vector<ActiveSampler> samplers;
+  bool isWhole = true;
   for (GLint i = 0; i < count; ++i) {
     GLsizei length = 0;
     GLint arraySize = 1;
     GLenum type = GL_FLOAT;
+    buffer[0] = '\0';
     gl.getActiveUniform(name(), static_cast<GLuint>(i), static_cast<GLsizei>(buffer.size()), &length,
                         &arraySize, &type, buffer.data());
+    isWhole = isWhole && buffer[0] != '\0';
     const std::string uniformName = nameWithoutIndex(buffer.data());
     Uniform uniform;
     uniform.hash = UniformKey::hashOf(uniformName);
@@ -166,7 +171,8 @@ void Program::reflect(Context& context, const std::vector<std::string>& samplerN
   std::stable_sort(samplers.begin(), samplers.end(),
                    [](const ActiveSampler& a, const ActiveSampler& b) { return a.rank < b.rank; });
 
-  if (wrapped_ != 0) return;  // the host decides
+  if (!isWhole) textKey_ = 0;  // a query was not answered: it is not known
+  if (wrapped_ != 0) return;   // the host decides
   // A link happens at any time, also between useProgram and draw: the current program stays what it was.
   GLint current = 0;
   gl.getIntegerv(GL_CURRENT_PROGRAM, &current);

@@ -209,7 +209,8 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
   const glm::dvec2 size =
       glm::max(scale.squeezed(glm::min(reached.high, shadows.high)) - tiles.low, glm::dvec2(1e-6 * tileSize));
   const auto count = [&](double length) {
-    return std::clamp(static_cast<int>(std::ceil(length / tileSize)), 1, maxTiles);
+    // As numbers of tiles may be beyond int.
+    return static_cast<int>(std::clamp(std::ceil(length / tileSize), 1.0, static_cast<double>(maxTiles)));
   };
   tiles.columns = count(size.x);
   tiles.rows = count(size.y);

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <glm/ext/matrix_clip_space.hpp>
 
+#include "scene/place.hpp"
+
 namespace halfshadow::scene {
 namespace {
 struct Frame {
@@ -23,9 +25,11 @@ Frame cameraFrame(const Camera& camera) {
 }  // namespace
 
 Status checkCamera(const Camera& camera) {
-  const auto finite = [](const glm::dvec3& v) { return std::isfinite(v.x + v.y + v.z); };
-  if (!finite(camera.eyeWorld) || !finite(camera.targetWorld) || !finite(camera.up)) {
-    return Error{ErrorCode::invalidCamera, "the camera has a NaN or infinite component; give finite numbers"};
+  if (!isPlace(camera.eyeWorld) || !isPlace(camera.targetWorld) || !isPlace(camera.up) ||
+      !isPlace({camera.nearDistance, camera.farDistance, 0.0})) {
+    return Error{
+        ErrorCode::invalidCamera,
+        "the camera has a NaN or infinite component, or one beyond 1e30; give smaller, finite numbers"};
   }
   if (glm::length(camera.targetWorld - camera.eyeWorld) == 0.0 || glm::length(camera.up) == 0.0) {
     return Error{ErrorCode::invalidCamera,

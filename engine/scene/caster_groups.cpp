@@ -94,7 +94,7 @@ std::vector<std::uint32_t> borderVertices(const TriangleMesh& mesh) {
     if (edge.size() == 1) vertices.insert(vertices.end(), {edge[0].low(), edge[0].high()});
   });
   std::ranges::sort(vertices);
-  vertices.erase(std::ranges::unique(vertices).begin(), vertices.end());
+  vertices.erase(std::unique(vertices.begin(), vertices.end()), vertices.end());
   return vertices;
 }
 

@@ -4,10 +4,13 @@
 
 #include <cmath>
 
+#include "scene/place.hpp"
+
 namespace halfshadow::scene {
 namespace {
-bool finite(const glm::dvec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+Error notAPlace() {
+  return {ErrorCode::invalidLight,
+          "the light has a NaN or infinite component, or one beyond 1e30; give smaller, finite numbers"};
 }
 
 glm::dvec3 leastAlignedAxis(const glm::dvec3& direction) {
@@ -18,9 +21,7 @@ glm::dvec3 leastAlignedAxis(const glm::dvec3& direction) {
 }  // namespace
 
 Result<AreaLight> areaLightFromVectors(glm::dvec3 centerWorld, glm::dvec3 halfU, glm::dvec3 halfV) {
-  if (!finite(centerWorld) || !finite(halfU) || !finite(halfV)) {
-    return Error{ErrorCode::invalidLight, "the light has a NaN or infinite component; give finite numbers"};
-  }
+  if (!isPlace(centerWorld) || !isPlace(halfU) || !isPlace(halfV)) return notAPlace();
   AreaLight light{.centerWorld = centerWorld, .halfU = halfU, .halfV = halfV};
   const double lengthU = glm::length(halfU), lengthV = glm::length(halfV);
   const glm::dvec3 normal = glm::cross(halfU, halfV);
@@ -41,10 +42,8 @@ Result<AreaLight> areaLightFromVectors(glm::dvec3 centerWorld, glm::dvec3 halfU,
 
 Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld, double sizeU, double sizeV,
                                  glm::dvec3 up) {
-  if (!finite(centerWorld) || !finite(targetWorld) || !finite(up) || !std::isfinite(sizeU) ||
-      !std::isfinite(sizeV)) {
-    return Error{ErrorCode::invalidLight, "the light has a NaN or infinite component; give finite numbers"};
-  }
+  if (!isPlace(centerWorld) || !isPlace(targetWorld) || !isPlace(up) || !isPlace({sizeU, sizeV, 0.0}))
+    return notAPlace();
   if (sizeU < 0.0 || sizeV < 0.0) {
     return Error{ErrorCode::invalidLight, "the light's size is negative; give full side lengths >= 0"};
   }
@@ -63,11 +62,11 @@ Result<AreaLight> areaLightAimed(glm::dvec3 centerWorld, glm::dvec3 targetWorld,
     side = glm::cross(leastAlignedAxis(n), n);
   const glm::dvec3 u = glm::normalize(side);
   const glm::dvec3 v = glm::cross(n, u);
-  return AreaLight{.centerWorld = centerWorld,
-                   .halfU = u * (sizeU / 2),
-                   .halfV = v * (sizeV / 2),
-                   .emission = n,
-                   .referenceDistance = glm::length(aim)};
+  Result<AreaLight> light = areaLightFromVectors(centerWorld, u * (sizeU / 2), v * (sizeV / 2));
+  if (!light) return light;
+  light->emission = n;
+  light->referenceDistance = glm::length(aim);
+  return light;
 }
 
 glm::dvec3 emissionDirection(const AreaLight& light) {

@@ -74,9 +74,14 @@ TEST_F(Driver, EveryCallOfEveryTechniqueMayFail) {
     const Image wanted = renderer().render();
     const std::uint64_t calls = callsOfAFrame();
     ASSERT_GT(calls, 20u);
+    std::fprintf(stderr, "%s: %llu calls a frame\n", technique.c_str(),
+                 static_cast<unsigned long long>(calls));
     for (const Fault fault : {Fault::outOfMemory, Fault::invalid, Fault::refused, Fault::dropped}) {
+      // All of them where a frame is short and is tried again: what the first try left must not stay.
+      const bool all = technique == "hard" && fault == Fault::outOfMemory;
+      const std::uint64_t each = all ? 1 : stride(211);
       // Other calls in each round, so that strides meet all in the end.
-      for (std::uint64_t call = step++ % stride(211); call < calls; call += stride(211)) {
+      for (std::uint64_t call = step++ % each; call < calls; call += each) {
         forget();
         faultyDriver().arm(fault, call);
         const Outcome outcome = engine().render(renderer().desc());

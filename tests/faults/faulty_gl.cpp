@@ -47,6 +47,11 @@ bool movesVertices(std::string_view name) {
          name == "glBindVertexArray";
 }
 
+bool asks(std::string_view name) {
+  return name.starts_with("glGet") || name.starts_with("glIs") || name.starts_with("glCheck") ||
+         name == "glReadPixels";
+}
+
 /// A status query answers "no".
 template <typename Tuple>
 void refuseStatus(std::string_view name, const Tuple& arguments) {
@@ -68,6 +73,7 @@ struct Faulty {
       ++faulty.callsAfterLoss;
       return Result();
     }
+    if (faulty.fault != Fault::none && asks(name)) ++faulty.queries;
     if (std::string_view(name) == "glGetError") {
       if constexpr (std::is_same_v<Result, GLenum>) {
         if (pendingError != GL_NO_ERROR) {
@@ -134,7 +140,7 @@ const char* faultName(Fault fault) {
 void FaultyDriver::arm(Fault what, std::uint64_t call) {
   fault = what;
   failingCall = call;
-  calls = 0;
+  calls = queries = 0;
   gone = false;
   callsAfterLoss = 0;
   failedAt = "";

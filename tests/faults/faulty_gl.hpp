@@ -29,6 +29,7 @@ struct FaultyDriver {
   Fault fault = Fault::none;
   std::uint64_t failingCall = 0;  ///< counted from 0 since calls was set to 0
   std::uint64_t calls = 0;        ///< glGetError not counted: it has nothing to fail at
+  std::uint64_t queries = 0;      ///< of those, and of glGetError, what asks the driver something
   std::function<void()> onLost;   ///< what the host does
   bool gone = false;              ///< the context is: calls are counted as callsAfterLoss and do nothing
   std::uint64_t callsAfterLoss = 0;

@@ -83,6 +83,34 @@ TEST_F(Refusals, NullsEnumsIndicesAndNans) {
   EXPECT_EQ(renderer().render().rgba, good.rgba);
 }
 
+// Beyond 1e30 products of places leave double precision: NaN, which compares as nothing does.
+TEST_F(Refusals, WhatLiesBeyondAllArithmetic) {
+  const Image good = renderer().render();
+  glm::dmat4 far(1.0);
+  far[3].x = 1e200;
+  expectRefused(engine().setTransform(renderer().id(0), &far[0][0]));
+  far = glm::dmat4(1e31);
+  far[3][3] = 1.0;
+  expectRefused(engine().setTransform(renderer().id(0), &far[0][0]));
+  ObjectDesc object = objectDesc(builtinScene("box@light=0.3").objects[0]);
+  object.worldFromObject[13] = -1e31;
+  ObjectId id = 0;
+  expectRefused(engine().addObject(object, id));
+  std::vector<float> positions(std::size_t{3} * object.mesh.vertexCount, 3e38f);
+  object.mesh.positions = positions.data();
+  expectRefused(engine().setVertices(renderer().id(0), object.mesh));
+  LightDesc light = lightDesc(builtinScene("box@light=0.3").lights[0]);
+  light.center[2] = 1e150;
+  expectRefused(engine().setLights(&light, 1), ErrorCode::invalidLight);
+  light.center[2] = 0.0;
+  light.halfU[0] = 1e155;
+  expectRefused(engine().setLights(&light, 1), ErrorCode::invalidLight);
+  RenderDesc desc = renderer().desc();
+  desc.camera.eye[0] = 1e160;
+  expectRefused(engine().render(desc), ErrorCode::invalidCamera);
+  EXPECT_EQ(renderer().render().rgba, good.rgba) << "a refusal changes nothing";
+}
+
 TEST_F(Refusals, IntegersAreWrittenAsIntegers) {
   for (const char* text : {"7.0", "1e1", "010", "+7", " 7", "7 ", "0x7", "", "-", "7;"})
     expectRefused(engine().set("pcf.size", text));
@@ -225,6 +253,10 @@ TEST_F(Refusals, FromC) {
     EXPECT_NE(halfshadow_read_output(engine, nullptr, 0), HALFSHADOW_OK);
     EXPECT_NE(halfshadow_trim(engine, static_cast<HalfshadowTrim>(7)), HALFSHADOW_OK);
     EXPECT_EQ(halfshadow_output_texture(engine), 0u);
+    EXPECT_NE(halfshadow_program_proofs(engine), nullptr);
+    EXPECT_NE(halfshadow_context_restored(nullptr), HALFSHADOW_OK);
+    EXPECT_NE(halfshadow_set_memory_limit(nullptr, 1), HALFSHADOW_OK);
+    EXPECT_NE(halfshadow_read_output(engine, nullptr, 0), HALFSHADOW_OK);
     EXPECT_NE(halfshadow_message(engine), nullptr);
     if (engine) {
       EXPECT_NE(std::string(halfshadow_message(engine)), "");

@@ -23,6 +23,14 @@ void* allocate(std::size_t bytes) {
   if (void* memory = std::malloc(bytes == 0 ? 1 : bytes)) return memory;
   throw std::bad_alloc();
 }
+
+void* allocatedOrNull(std::size_t bytes) noexcept {
+  try {
+    return allocate(bytes);
+  } catch (const std::bad_alloc&) {
+    return nullptr;
+  }
+}
 }  // namespace
 
 void* operator new(std::size_t bytes) {
@@ -30,6 +38,13 @@ void* operator new(std::size_t bytes) {
 }
 void* operator new[](std::size_t bytes) {
   return allocate(bytes);
+}
+// Sanitizers have those of their own, which do not go with what is freed below.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
+  return allocatedOrNull(bytes);
+}
+void* operator new[](std::size_t bytes, const std::nothrow_t&) noexcept {
+  return allocatedOrNull(bytes);
 }
 void operator delete(void* memory) noexcept {
   std::free(memory);

@@ -91,6 +91,12 @@ const Damage kDamages[] = {
     {"AccessorOverrun", [](auto& w) { w.json["accessors"][0]["count"] = 5; }, kMalformed, "overrun"},
     {"AccessorCountHuge", [](auto& w) { w.json["accessors"][0]["count"] = 4000000000u; }, kMalformed,
      "accessor 0"},
+    {"ElementsWithoutBytes",
+     [](auto& w) {
+       w.json["accessors"][0].erase("bufferView");
+       w.json["accessors"][0]["count"] = 60000000;
+     },
+     kMalformed, "no buffer view"},
     {"AccessorOffsetOverrun", [](auto& w) { w.json["accessors"][0]["byteOffset"] = 4; }, kMalformed,
      "overrun"},
     {"AccessorViewMissing", [](auto& w) { w.json["accessors"][0]["bufferView"] = 12; }, kMalformed,
@@ -164,6 +170,18 @@ const Damage kDamages[] = {
     {"LightMissing",
      [](auto& w) {
        w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 3}}}};
+     },
+     kMalformed, "light"},
+    {"LightBeyondInt",
+     [](auto& w) {
+       w.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({{{"type", "point"}}})}}}};
+       w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 4e9}}}};
+     },
+     kMalformed, "light"},
+    {"LightBetweenTwo",
+     [](auto& w) {
+       w.json["extensions"] = {{"KHR_lights_punctual", {{"lights", Json::array({{{"type", "point"}}})}}}};
+       w.json["nodes"][0]["extensions"] = {{"KHR_lights_punctual", {{"light", 0.5}}}};
      },
      kMalformed, "light"},
     {"LightSizeNegative",

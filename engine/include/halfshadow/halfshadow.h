@@ -20,7 +20,15 @@
 extern "C" {
 #endif
 
-typedef enum HalfshadowError {
+/* In C any int may be passed as an enum, and is checked; without a type of its own C++ may assume otherwise.
+ */
+#ifdef __cplusplus
+#define HALFSHADOW_ENUM_TYPE : int
+#else
+#define HALFSHADOW_ENUM_TYPE
+#endif
+
+typedef enum HalfshadowError HALFSHADOW_ENUM_TYPE {
 #define HALFSHADOW_ERROR_C_ENUM(name, NAME, text) HALFSHADOW_##NAME,
   HALFSHADOW_ERROR_LIST(HALFSHADOW_ERROR_C_ENUM)
 #undef HALFSHADOW_ERROR_C_ENUM
@@ -28,7 +36,7 @@ typedef enum HalfshadowError {
 
 typedef struct HalfshadowEngine HalfshadowEngine;
 
-typedef enum HalfshadowHostState {
+typedef enum HalfshadowHostState HALFSHADOW_ENUM_TYPE {
   HALFSHADOW_RESTORE_STATE = 0,
   HALFSHADOW_LEAVE_DEFAULTS = 1,
   HALFSHADOW_LEAVE_DIRTY = 2
@@ -72,7 +80,7 @@ typedef struct HalfshadowLightDesc {
   double inner_cone_radians, outer_cone_radians; /* of a spot; an outer of 0: no cone */
 } HalfshadowLightDesc;
 
-typedef enum HalfshadowOutput {
+typedef enum HalfshadowOutput HALFSHADOW_ENUM_TYPE {
   HALFSHADOW_SHADED = 0,
   HALFSHADOW_VISIBILITY = 1,
   HALFSHADOW_VISIBILITY_16 = 2,
@@ -91,7 +99,10 @@ typedef struct HalfshadowRenderDesc {
   float clear_color[4];
 } HalfshadowRenderDesc;
 
-typedef enum HalfshadowTrim { HALFSHADOW_TRIM_UNUSED = 0, HALFSHADOW_TRIM_EVERYTHING = 1 } HalfshadowTrim;
+typedef enum HalfshadowTrim HALFSHADOW_ENUM_TYPE {
+  HALFSHADOW_TRIM_UNUSED = 0,
+  HALFSHADOW_TRIM_EVERYTHING = 1
+} HalfshadowTrim;
 
 typedef struct HalfshadowReport {
   size_t struct_size;
@@ -128,6 +139,8 @@ HalfshadowError halfshadow_context_restored(HalfshadowEngine* engine);
 HalfshadowError halfshadow_trim(HalfshadowEngine* engine, HalfshadowTrim what);
 /* 0: no limit. */
 HalfshadowError halfshadow_set_memory_limit(HalfshadowEngine* engine, uint64_t bytes);
+
+#undef HALFSHADOW_ENUM_TYPE
 
 #ifdef __cplusplus
 }

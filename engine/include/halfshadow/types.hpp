@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Plain data of the public interface: no OpenGL, no mathematics library, no containers.
+/// Plain data: no OpenGL, no mathematics library, no containers. Places lie within 1e30 of the origin.
 #pragma once
 
 #include <cstddef>

@@ -267,7 +267,7 @@ SignedWidthMap planSignedWidth(const LightScene& scene, PassPlan& plan, const Li
   using framegraph::Lifetime;
   const auto coverage = addTarget("coverage", Lifetime::transient, Filter::nearest);
   auto defines = depthDefines(depth.storage);
-  const glm::ivec2 samples = glm::min(glm::ivec2(glm::ceil(map.depthTexelsPerTexel - 1e-6)), glm::ivec2(16));
+  const glm::ivec2 samples(glm::min(glm::ceil(map.depthTexelsPerTexel - 1e-6), glm::dvec2(16.0)));
   defines.push_back("HS_SAMPLES_S " + std::to_string(samples.x));
   defines.push_back("HS_SAMPLES_T " + std::to_string(samples.y));
   std::vector<TextureRead> sources = {{"u_depthMap", depth.map}};

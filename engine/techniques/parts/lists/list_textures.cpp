@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 namespace halfshadow::techniques {
 namespace {
@@ -39,28 +38,30 @@ EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) 
     return record.behindFacet == outlines::ListRecord::kVertex;
   };
   if (std::ranges::none_of(records, isVertex)) return {};
-  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
+  for (const outlines::ListRecord& record : records) {
+    if (!isVertex(record)) continue;
     farthest = std::min(farthest, record.ti.z);
     nearest = std::max(nearest, record.ti.z);
   }
   const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
   Range fine;
-  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
-    if (record.ti.z <= fineUpTo) fine.include(record.ti);
+  for (const outlines::ListRecord& record : records) {
+    if (isVertex(record) && record.ti.z <= fineUpTo) fine.include(record.ti);
   }
   // Receivers may stand on the facets of one-sided loops, off by no more than a step; but not where that
   // would make the steps of all others much coarser.
   const glm::vec3 middle = 0.5f * (fine.low + fine.high), range = fine.high - fine.low;
   const glm::vec3 reach(kFacetReach * std::max({range.x, range.y, range.z}));
-  for (const outlines::ListRecord& record : records | std::views::filter(isVertex)) {
-    if (record.oneSided && glm::all(glm::lessThanEqual(glm::abs(record.ti - middle), reach)))
+  for (const outlines::ListRecord& record : records) {
+    if (isVertex(record) && record.oneSided &&
+        glm::all(glm::lessThanEqual(glm::abs(record.ti - middle), reach)))
       fine.include(record.ti);
   }
   EncodedLists::Placed placed;
   placed.center = 0.5f * (fine.low + fine.high);
   glm::vec3 farthestOff(0.0f);
-  for (const outlines::ListRecord& record : records | std::views::filter(isVertex))
-    farthestOff = glm::max(farthestOff, glm::abs(record.ti - placed.center));
+  for (const outlines::ListRecord& record : records)
+    if (isVertex(record)) farthestOff = glm::max(farthestOff, glm::abs(record.ti - placed.center));
   glm::vec3 least = glm::max(farthestOff / (32766.0f * kLargestScale), (fine.high - fine.low) / 65534.0f);
   // The scale of a vertex is that of its farthest coordinate: steps of the others must not be much coarser,
   // or it must not need one.

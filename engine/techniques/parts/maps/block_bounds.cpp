@@ -24,8 +24,10 @@ BlockBounds planBlockBounds(const LightScene& scene, PassPlan& plan, const Light
   // image.
   constexpr int kLongestReach = 4;
   bounds.blockTexels = 4;
-  while (bounds.blockTexels * kLongestReach < std::ceil(radiusTexels)) bounds.blockTexels *= 2;
-  const int reach = std::max(1, static_cast<int>(std::ceil(radiusTexels / bounds.blockTexels)));
+  // Nothing is beyond the map, however wide the kernel.
+  const double covered = std::min<double>(radiusTexels, depth.space.mapSize);
+  while (bounds.blockTexels * kLongestReach < std::ceil(covered)) bounds.blockTexels *= 2;
+  const int reach = std::max(1, static_cast<int>(std::ceil(covered / bounds.blockTexels)));
   int size = depth.space.mapSize;
   const std::string prefix = scene.name + " block bounds ";
   framegraph::ResourceId source = depth.map;

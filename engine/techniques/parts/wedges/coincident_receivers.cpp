@@ -57,9 +57,9 @@ bool overlap(const Triangle& a, const Triangle& b) {
     for (std::size_t k = 0; k < 3; ++k) {
       const glm::dvec3 edge = own->corners[(k + 1) % 3] - own->corners[k];
       const glm::dvec3 inwards = glm::normalize(glm::cross(own->normal, edge));
-      const bool apart = std::ranges::all_of(other->corners, [&](const glm::dvec3& p) {
-        return glm::dot(inwards, p - own->corners[k]) <= margin;
-      });
+      const glm::dvec3& corner = own->corners[k];
+      const bool apart = std::ranges::all_of(
+          other->corners, [&](const glm::dvec3& p) { return glm::dot(inwards, p - corner) <= margin; });
       if (apart) return false;
     }
   }

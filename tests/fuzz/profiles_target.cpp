@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+// Device profiles and suites of measurements: JSON that users write.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "fuzz_target.hpp"
+#include "measure/device_settings.hpp"
+#include "profile/suite.hpp"
+#include "techniques/registry/registry.hpp"
+#include "temporary_file.hpp"
+
+namespace halfshadow::fuzz {
+namespace {
+template <typename T>
+void requireSentence(const Result<T>& result, const std::string& path) {
+  if (result) return;
+  require(result.error().code == ErrorCode::fileMalformed,
+          "an error of another kind: " + result.error().message);
+  require(result.error().message.starts_with(path), "an error that does not name the file");
+}
+
+void testDevice(const TemporaryFile& file) {
+  const auto given = measure::deviceSettings(file.path(), "llvmpipe");
+  const auto found = measure::deviceSettingsIn(file.folder(), "llvmpipe (LLVM 15.0.6, 256 bits)");
+  requireSentence(given, file.path()), requireSentence(found, file.path());
+  if (given && found)
+    require(found->empty() || found->size() == given->size(), "the same profile gives other settings");
+  if (!given) return;
+  static const std::vector<techniques::SettingInfo> declared =
+      techniques::allSettings(techniques::makeAllTechniques());
+  techniques::Settings settings(declared);
+  for (const measure::Setting& setting : *given) (void)settings.set(setting.key, setting.value).ok();
+}
+
+void testSuite(const TemporaryFile& file) {
+  const auto suite = profile::readSuite(file.path());
+  requireSentence(suite, file.path());
+  if (!suite) return;
+  require(suite->width >= 1 && suite->height >= 1 && suite->samples >= 1 && suite->repetitions >= 1,
+          "a suite that measures nothing");
+  require(!suite->scenes.empty() && !suite->configurations.empty(), "a suite of nothing");
+}
+
+void test(Input input) {
+  static const TemporaryFile file("input.json");
+  file.write(input);
+  testDevice(file);
+  testSuite(file);
+}
+
+std::vector<Bytes> seeds() {
+  std::vector<Bytes> all;
+  std::vector<std::filesystem::path> paths;
+  for (const char* folder : {"devices", "benchmarks"}) {
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::string(HALFSHADOW_PROFILES "/") + folder))
+      if (entry.path().extension() == ".json") paths.push_back(entry.path());
+  }
+  std::sort(paths.begin(), paths.end());
+  for (const std::filesystem::path& path : paths) {
+    std::ifstream stream(path, std::ios::binary);
+    Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+    if (bytes.size() <= target().largestInput) all.push_back(std::move(bytes));
+  }
+  all.push_back(
+      bytesOf(R"({"match":{"renderer":"llvmpipe"},"settings":[{"key":"filter_skip","value":"loop"}]})"));
+  all.push_back(bytesOf(
+      R"({"name":"n","description":"d","size":[4,3],"samples":1,"repetitions":1,"scenes":["builtin:box",)"
+      R"({"label":"b","source":"builtin:box","camera":"eye=0,0,5 target=0,0,0"}],"configurations":[)"
+      R"({"technique":"pcf","label":"p","settings":{"pcf.size":"7"}},{"technique":"hard"}],)"
+      R"("ratios":[{"of":"p","to":"hard"}],"scene_ratios":[{"configuration":"p","above":"hard",)"
+      R"("of":"b","to":"builtin:box"}]})"));
+  return all;
+}
+
+std::vector<std::string> dictionary() {
+  return {"\"match\":",
+          "\"renderer\":",
+          "\"settings\":",
+          "\"key\":",
+          "\"value\":",
+          "\"size\":",
+          "\"samples\":",
+          "\"repetitions\":",
+          "\"scenes\":",
+          "\"configurations\":",
+          "\"technique\":",
+          "\"ratios\":",
+          "\"label\":",
+          "\"llvmpipe\"",
+          "null",
+          "true",
+          "[",
+          "]",
+          "{",
+          "}",
+          ",",
+          "\"",
+          "{}",
+          "[]",
+          "1.5",
+          "-1",
+          "1e300"};
+}
+}  // namespace
+
+const Target& target() {
+  static const Target made{
+      .name = "profiles", .test = test, .seeds = seeds, .dictionary = dictionary, .largestInput = 1 << 14};
+  return made;
+}
+
+}  // namespace halfshadow::fuzz
