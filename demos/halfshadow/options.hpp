@@ -22,7 +22,7 @@ struct SceneArguments {
   std::string camera;               ///< empty = the scene's, or fitted
   std::vector<std::string> lights;  ///< none = the scene's, or a fitted one
   std::string ground = "auto";
-  std::string up = "y", sides = "both";
+  std::string up = "y", sides = "file";
   double animationTimeSeconds = 0.0;
   int animationIndex = 0;
 };

@@ -32,7 +32,7 @@ struct SceneOptions {
   std::vector<scene::AreaLight> moreLights;  ///< stand beside `light`
   /// What the scene takes for upward: where an added ground, lamp and camera stand. Need not be unit.
   glm::dvec3 up{0, 1, 0};
-  Sides sides = Sides::both;
+  Sides sides = Sides::asInFile;
 };
 
 /// Opens `builtin:NAME[@key=value,…]` or a .gltf/.glb file. The result always has a camera, at least one

@@ -312,14 +312,14 @@ GltfWriter cardFacingDown(bool mirrored, bool isSeen) {
 }
 
 TEST_F(Twins, BackFacesOfSingleSidedCardsCastUnseen) {
-  SceneOptions asInFile = options();
-  asInFile.sides = Sides::asInFile;
+  SceneOptions asInFile = options(), bothSides = options();
+  bothSides.sides = Sides::both;
   for (const bool mirrored : {false, true}) {
     const auto card = opened(cardFacingDown(mirrored, true), "card.glb", asInFile);
     ASSERT_EQ(card.objects.size(), 2u);
     EXPECT_FALSE(scene::showsBackFaces(*card.objects[1].mesh, card.objects[1].material));
     const auto hidden = opened(cardFacingDown(mirrored, false), "hidden.glb", asInFile);
-    const auto both = opened(cardFacingDown(mirrored, true), "both.glb");
+    const auto both = opened(cardFacingDown(mirrored, true), "both.glb", bothSides);
     for (const char* technique :
          {"hard", "pcss-mip", "wedges", "wedges-blended", "wedges-cells", "shadow-volume"}) {
       const auto unseen = visibility(card, technique);
