@@ -268,7 +268,9 @@ GltfWriter flag(bool byRoot, bool skinned) {
   const float side = byRoot ? 1.0f : -1.0f;
   const std::vector<float> positions{side * .1f, 0, 0, side * .2f, 0, 0,    side * .1f,  2,    0,
                                      side * .2f, 2, 0, side * .2f, 1, 0.1f, side * 1.6f, 1.6f, .4f};
-  const std::vector<std::uint32_t> indices{0, 1, 2, 1, 3, 2, 3, 4, 5};
+  std::vector<std::uint32_t> indices{0, 1, 2, 1, 3, 2, 3, 4, 5};
+  // What a transform mirrors keeps its front.
+  for (std::size_t i = 0; !byRoot && i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
   const int mesh = addMesh(writer, positions, {}, indices, -1);
   Json node = {{"mesh", mesh}};
   if (skinned) {
