@@ -221,6 +221,7 @@ ExitStatus render(const Arguments& arguments) {
   auto scene = openScene(arguments.scene);
   if (!scene) return fail(scene.error());
   if (Status status = (*session)->load(*scene); !status) return fail(status.error());
+  scene::releaseColorImages(*scene);
   if (Status status = (*session)->setLights(scene->lights); !status) return fail(status.error());
   Renderer renderer(**session, arguments, technique);
   if (Status status = renderFrames(**session, arguments, *scene, renderer); !status)

@@ -100,6 +100,12 @@ void addSceneArguments(CLI::App& app, SceneArguments& arguments) {
          "a direction x,y,z; the scene itself is not turned")
       ->check([](const std::string& text) { return problemOf(scenes::parseUp(text), "--up"); })
       ->capture_default_str();
+  app.add_option(
+         "--sides", arguments.sides,
+         "from where a file's surfaces are seen that are not doubleSided: file: the front (closed ones "
+         "from within too), or both; shadows fall from both sides")
+      ->check(CLI::IsMember({"both", "file"}))
+      ->capture_default_str();
   app.add_option("--animation-time", arguments.animationTimeSeconds,
                  "seconds into a file's animation at which it is posed")
       ->check(finiteProblem)
@@ -179,6 +185,7 @@ scenes::SceneOptions sceneOptions(const SceneArguments& arguments) {
                                .animationIndex = arguments.animationIndex};
   if (arguments.ground == "on") options.ground = scenes::GroundMode::on;
   if (arguments.ground == "off") options.ground = scenes::GroundMode::off;
+  if (arguments.sides == "both") options.sides = scenes::Sides::both;
   options.up = scenes::parseUp(arguments.up).value();
   if (!arguments.camera.empty()) options.camera = scenes::parseCamera(arguments.camera).value();
   for (const std::string& text : arguments.lights) {

@@ -22,7 +22,7 @@ struct SceneArguments {
   std::string camera;               ///< empty = the scene's, or fitted
   std::vector<std::string> lights;  ///< none = the scene's, or a fitted one
   std::string ground = "auto";
-  std::string up = "y";
+  std::string up = "y", sides = "file";
   double animationTimeSeconds = 0.0;
   int animationIndex = 0;
 };
@@ -52,7 +52,7 @@ std::string finiteProblem(const std::string& text);
 /// A check for output options: the file's name ends with `extension` (".png").
 CLI::Validator endsWith(const std::string& extension);
 
-/// SCENE, --camera, --light, --ground, --animation-time, --animation.
+/// SCENE, --camera, --light, --ground, --up, --sides, --animation-time, --animation.
 void addSceneArguments(CLI::App& app, SceneArguments& arguments);
 /// --size.
 void addSizeArgument(CLI::App& app, SizeArguments& arguments);

@@ -52,6 +52,7 @@ ObjectDesc objectDesc(const scene::SceneObject& object, const std::vector<std::u
     desc.baseColorFilter = object.material.sampling.filter;
   }
   desc.alphaCutoff = std::min(object.material.alphaCutoff, 1.0f);
+  desc.singleSided = !object.material.doubleSided;
   return desc;
 }
 }  // namespace
@@ -144,6 +145,7 @@ Status EngineSession::addObjects(const scene::SceneDescription& scene) {
     }
     objectIds_.push_back(id);
     objects_.push_back(object);
+    objects_.back().material.baseColorImage = nullptr;  // the engine has its own copy
   }
   return {};
 }

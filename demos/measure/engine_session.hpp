@@ -97,7 +97,7 @@ class EngineSession {
   HostContext host_;
   std::unique_ptr<Engine> engine_;
   std::vector<ObjectId> objectIds_;
-  std::vector<scene::SceneObject> objects_;  ///< as loaded; meshes are shared
+  std::vector<scene::SceneObject> objects_;  ///< as loaded, without images; meshes are shared
 };
 
 /// Which bytes of a visibility frame hold the value: Output::visibility or Output::visibility16.

@@ -38,8 +38,8 @@ bool isInsideAShell(const std::vector<WorldTriangle>& triangles, const glm::dvec
   return std::ranges::any_of(sums, [](const auto& sum) { return std::abs(sum.second) > 6.0; });  // about 2 pi
 }
 
-/// Area of the surfaces in the plane at `height` that the eye sees, judged at their centres.
-double seenAreaAt(const TriangleTree& tree, double height, double rounding, const glm::dvec3& eye) {
+/// Area of the surfaces in the plane at `height` that the camera sees, judged at their centres.
+double seenAreaAt(const TriangleTree& tree, double height, double rounding, const scene::Camera& camera) {
   const auto liesThere = [&](const WorldTriangle& triangle) {
     return std::ranges::all_of(triangle.corners,
                                [&](const glm::dvec3& c) { return c.y <= height + rounding; });
@@ -61,7 +61,8 @@ double seenAreaAt(const TriangleTree& tree, double height, double rounding, cons
     for (const glm::dvec3& share : kPoints) {
       const glm::dvec3 point =
           triangle->corners[0] * share.x + triangle->corners[1] * share.y + triangle->corners[2] * share.z;
-      visible += !tree.isBetween(eye, point, triangle);
+      const auto begin = scene::sightBegin(camera, point);
+      visible += begin && !tree.isBetween(*begin, point, triangle);
     }
     if (visible > 0) seen += triangle->area();
   }
@@ -89,12 +90,16 @@ GroundPlace groundPlaceFor(const scene::SceneDescription& description, const Tri
               .note = "no ground was added: a light is not above the scene's lowest point"};
     }
   }
-  if (isInsideAShell(tree.triangles(), eye)) {
+  const auto begin = scene::sightBegin(*description.camera, description.camera->targetWorld);
+  const glm::dvec3 from = begin.value_or(eye);
+  const bool isAmong =
+      glm::all(glm::lessThanEqual(bounds.low, from)) && glm::all(glm::lessThanEqual(from, bounds.high));
+  if (isAmong && isInsideAShell(tree.triangles(), from)) {
     return {.height = lowest,
             .wanted = false,
             .note = "no ground was added: the camera is inside a closed object"};
   }
-  const double seen = seenAreaAt(tree, lowest, rounding, eye);
+  const double seen = seenAreaAt(tree, lowest, rounding, *description.camera);
   if (seen <= 0.0) return {.height = lowest};
   const double below = lowest - kGap * bounds.radius();
   const glm::dvec3 size = bounds.high - bounds.low;

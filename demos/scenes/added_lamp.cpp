@@ -20,9 +20,12 @@ std::vector<glm::dvec3> seenFrom(const scene::Camera& camera, const TriangleTree
   for (int i = 0; i < kAcross * kDown; ++i) {
     const glm::dvec3 ray =
         scene::pixelRayWorld(camera, kAcross, kDown, i % kAcross, static_cast<double>(i / kAcross));
-    const auto hit = tree.firstOn(camera.eyeWorld, ray * farthest);
-    if (hit.triangle != nullptr)
-      points.push_back(camera.eyeWorld + ray * (farthest * hit.share * (1.0 - 1e-4)));
+    const glm::dvec3 end = camera.eyeWorld + ray * farthest;
+    const glm::dvec3 begin = scene::sightBegin(camera, end).value_or(camera.eyeWorld);
+    const auto hit = tree.firstOn(begin, end - begin);
+    if (hit.triangle == nullptr) continue;
+    // Of the way in the scene: one that came from far away says nothing of it.
+    points.push_back(glm::mix(begin, end, hit.share * (1.0 - 1e-4)));
   }
   return points;
 }

@@ -18,6 +18,9 @@ constexpr int kRaysAcross = 32, kRaysDown = 16;
 /// edge-on.
 constexpr double kSliver = 0.02;
 
+/// Of the depth of the scene, before and behind it.
+constexpr double kFarAwayMargin = 0.05;
+
 struct Triangle {
   std::array<glm::dvec3, 3> corners;  ///< x right, y up, z along the view, from the eye
 };
@@ -115,8 +118,13 @@ void fitNearAndFar(scene::Camera& camera, const scene::SceneDescription& descrip
   // Nothing in view, or only slivers through the eye: any near plane shows the same.
   if (!(nearest > 0.0 && nearest < kNothing)) nearest = camera.farDistance / 5000.0;
   camera.nearDistance = std::min(0.9 * nearest, 0.5 * camera.farDistance);
-  if (camera.leastNearDistance < camera.farDistance)
-    camera.nearDistance = std::max(camera.nearDistance, camera.leastNearDistance);
+  if (camera.leastNearDistance > 0.0 && camera.leastNearDistance < farthest) {
+    // From far away a share of the distance would be many times the scene, and most of the depth buffer.
+    const double begin = std::max(std::min(nearest, farthest), camera.leastNearDistance);
+    const double margin = kFarAwayMargin * (farthest - begin);
+    camera.nearDistance = std::max(begin - margin, camera.leastNearDistance);
+    camera.farDistance = farthest + std::max(margin, 1e-6 * farthest);
+  }
 }
 
 }  // namespace halfshadow::scenes

@@ -198,7 +198,6 @@ SceneDescription makeSheets(double lightHalfSize) {
   Random random(2026);
   for (int i = 0; i < 40; ++i) {
     add(description, "sheet" + std::to_string(i), sheetShape(random), kLeafGreen);
-    description.objects.back().material.doubleSided = true;
   }
   description.objects.push_back(groundObject());
   setBenchmarkView(description, lightHalfSize);

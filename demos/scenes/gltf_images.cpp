@@ -6,7 +6,8 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
-#include <exception>
+#include <new>
+#include <system_error>
 
 #include "images/images.hpp"
 #include "scenes/gltf_accessors.hpp"
@@ -48,57 +49,66 @@ FileBytes bytesOfDataUri(std::string_view uri) {
   return bytes;
 }
 
-/// 8 bits per channel, 3 or 4 channels; an error when the sizes do not fit together.
-Result<scene::Image> converted(const tinygltf::Image& source) {
-  const bool isWide = source.bits == 16;
-  const auto pixelCount = static_cast<std::size_t>(std::max(source.width, 0)) *
-                          static_cast<std::size_t>(std::max(source.height, 0));
-  const auto channels = static_cast<std::size_t>(std::max(source.component, 0));
-  if (pixelCount == 0 || channels < 1 || channels > 4 || (source.bits != 8 && !isWide) ||
-      source.image.size() != pixelCount * channels * (isWide ? 2 : 1)) {
-    return malformed("its size or depth is none of an image");
-  }
-  const auto value = [&](std::size_t i) { return source.image[isWide ? 2 * i + 1 : i]; };  // high byte of two
-  scene::Image image{.width = source.width, .height = source.height};
-  const bool hasAlpha = channels == 2 || channels == 4, isGrey = channels <= 2;
-  image.channels = hasAlpha ? 4 : 3;
-  image.pixels.resize(pixelCount * static_cast<std::size_t>(image.channels));
-  std::uint8_t* target = image.pixels.data();
-  for (std::size_t p = 0; p < pixelCount; ++p) {
-    for (std::size_t c = 0; c < 3; ++c) *target++ = value(p * channels + (isGrey ? 0 : c));
-    if (hasAlpha) *target++ = value(p * channels + channels - 1);
-  }
-  return image;
-}
-
-Result<scene::Image> decodedWebP(const ByteRange& range) {
-  auto decoded = images::decodeImage({range.begin, range.size}, "webp");
-  if (!decoded) return decoded.error();
-  return scene::Image{.width = decoded->width,
-                      .height = decoded->height,
-                      .channels = decoded->channels,
-                      .pixels = std::move(decoded->pixels)};
-}
+struct Format {
+  std::string_view magic;  ///< the first bytes of its files
+  const char* name;        ///< OpenImageIO's
+};
+/// Two more than the format allows, which some exporters embed all the same.
+constexpr std::array<Format, 5> kFormats = {
+    {{"\x89PNG", "png"}, {"\xFF\xD8\xFF", "jpeg"}, {"RIFF", "webp"}, {"BM", "bmp"}, {"GIF8", "gif"}}};
 
 Result<scene::Image> decodedImage(const ByteRange& range) {
-  if (begins(range, "RIFF")) return decodedWebP(range);
   if (begins(range, "\xABKTX 20")) return malformed("KTX 2 cannot be decoded here; export PNG, JPEG or WebP");
   if (begins(range, "DDS ")) return malformed("DDS cannot be decoded here; export PNG, JPEG or WebP");
-  tinygltf::Image image;
-  std::string error, warning;
-  bool done = false;
+  const auto format = std::ranges::find_if(kFormats, [&](const Format& f) { return begins(range, f.magic); });
+  const Error undecodable = malformed("its bytes are not a PNG, JPEG or WebP image that can be decoded");
+  if (format == kFormats.end()) return undecodable;
   try {
-    done = range.size > 0 && tinygltf::LoadImageData(&image, 0, &error, &warning, 0, 0, range.begin,
-                                                     static_cast<int>(range.size), nullptr);
-  } catch (const std::exception&) {
-    done = false;
+    auto image = images::decodeImage({range.begin, range.size}, format->name);
+    if (!image) return undecodable;
+    return scene::Image{.width = image->width,
+                        .height = image->height,
+                        .channels = image->channels,
+                        .pixels = std::move(image->pixels)};
+  } catch (const std::bad_alloc&) {
+    return malformed("there is not enough memory to decode it");
   }
-  if (!done) return malformed("its bytes are not a PNG, JPEG or WebP image that can be decoded");
-  return converted(image);
 }
 }  // namespace
 
+void GltfImages::beginDecoding(const std::vector<int>& textures) {
+  for (const int texture : textures) {
+    if (texture < 0 || static_cast<std::size_t>(texture) >= model_.textures.size()) continue;
+    const tinygltf::Texture& source = model_.textures[static_cast<std::size_t>(texture)];
+    const int webp = sourceIn(source, kOtherSources[0]);
+    const int image = webp >= 0 ? webp : source.source;
+    if (image < 0 || static_cast<std::size_t>(image) >= ahead_.size()) continue;
+    if (std::ranges::find(wanted_, image) == wanted_.end()) wanted_.push_back(image);
+  }
+  const std::size_t most = std::min<std::size_t>(std::thread::hardware_concurrency(), wanted_.size());
+  try {
+    while (helpers_.size() < most) helpers_.emplace_back([this] { decodeWanted(); });
+  } catch (const std::system_error&) {
+    // No thread to be had: endDecoding() does what is left.
+  }
+}
+
+void GltfImages::decodeWanted() {
+  for (std::size_t i = next_++; i < wanted_.size(); i = next_++)
+    ahead_[static_cast<std::size_t>(wanted_[i])] = decoded(wanted_[i]);
+}
+
+void GltfImages::endDecoding() {
+  decodeWanted();
+  helpers_.clear();
+}
+
+GltfImages::~GltfImages() {
+  next_ = wanted_.size();  // what nobody asks for any more need not be begun
+}
+
 std::shared_ptr<const scene::Image> GltfImages::ofTexture(int texture) {
+  endDecoding();
   if (texture < 0 || static_cast<std::size_t>(texture) >= model_.textures.size()) {
     addNote("texture " + std::to_string(texture) + " does not exist; a plain colour is used");
     return nullptr;
@@ -123,7 +133,9 @@ std::shared_ptr<const scene::Image> GltfImages::at(int index) {
   }
   if (isTried_[index]) return images_[index];
   isTried_[index] = true;
-  Result<scene::Image> image = decoded(index);
+  std::optional<Result<scene::Image>>& ahead = ahead_[static_cast<std::size_t>(index)];
+  Result<scene::Image> image = ahead ? std::move(*ahead) : decoded(index);
+  ahead.reset();
   if (!image) {
     const std::string uri =
         model_.images[index].uri.starts_with("data:") ? std::string() : model_.images[index].uri;

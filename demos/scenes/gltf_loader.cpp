@@ -38,7 +38,8 @@ std::string listed(const std::vector<std::string>& names, const char* quote = "'
 
 class GltfSceneBuilder {
  public:
-  GltfSceneBuilder(GltfFile& file, const GltfOptions& options) : model_(file.model), options_(options) {
+  GltfSceneBuilder(GltfFile& file, const GltfOptions& options)
+      : model_(file.model), options_(options), images_(file.model, scene_.notes) {
     scene_.notes = std::move(file.notes);
   }
 
@@ -46,7 +47,7 @@ class GltfSceneBuilder {
     Result<Pose> pose = poseOf(model_, options_, scene_.notes);
     if (!pose) return pose.error();
     pose_ = std::move(pose).value();
-    materials_ = materialsOf(model_, scene_.notes);
+    images_.beginDecoding(baseColorTextures(model_));
     const Result<std::vector<std::size_t>> nodes = nodesOfScene();
     if (!nodes) return nodes.error();
     for (const std::size_t node : *nodes) {
@@ -55,6 +56,7 @@ class GltfSceneBuilder {
         if (Status status = (this->*step)(node); !status) return status.error();
       }
     }
+    addObjects(materialsOf(model_, images_));
     noteWhatAlphaDid();
     noteWhatWasSkipped();
     if (scene_.objects.empty()) return nothingToDraw();
@@ -170,7 +172,7 @@ class GltfSceneBuilder {
         request.centerWorld = &center;
         worldFromObject = glm::translate(worldFromObject, center);
       }
-      if (Status status = addObject(nodeIndex, suffix, request, made->mesh, worldFromObject); !status)
+      if (Status status = takeObject(nodeIndex, suffix, request, made->mesh, worldFromObject); !status)
         return status;
     }
     if (added == 0 && request.flattening != nullptr) {
@@ -180,8 +182,9 @@ class GltfSceneBuilder {
     return {};
   }
 
-  Status addObject(std::size_t nodeIndex, const std::string& suffix, const PrimitiveRequest& request,
-                   std::shared_ptr<const scene::TriangleMesh> mesh, const glm::dmat4& worldFromObject) {
+  /// One that waits for its material: images are still being decoded.
+  Status takeObject(std::size_t nodeIndex, const std::string& suffix, const PrimitiveRequest& request,
+                    std::shared_ptr<const scene::TriangleMesh> mesh, const glm::dmat4& worldFromObject) {
     const tinygltf::Mesh& source = model_.meshes[request.mesh];
     const int material = source.primitives[request.primitive].material;
     SceneObject object{
@@ -189,25 +192,36 @@ class GltfSceneBuilder {
     if (object.name.empty()) object.name = source.name.empty() ? label("node", nodeIndex, "") : source.name;
     object.name += suffix;
     if (source.primitives.size() > 1) object.name += "#" + std::to_string(request.primitive);
-    if (material >= static_cast<int>(materials_.size()) || material < -1) {
+    if (material >= static_cast<int>(model_.materials.size()) || material < -1) {
       return malformed("primitive " + std::to_string(request.primitive) + " of mesh " +
                        std::to_string(request.mesh) + " has material " + std::to_string(material) +
                        ", which does not exist");
     }
-    if (material >= 0) object.material = materials_[material].material;
-    if (object.mesh->texcoords.empty()) object.material.baseColorImage = nullptr;
-    const bool blends = material >= 0 && materials_[material].blends;
-    const Presence presence = presenceOf(object.material, *object.mesh);
-    if (presence == Presence::nothing) {
-      absent_.push_back(object.name);
-      return {};
-    }
-    if (presence == Presence::whole) object.material.alphaCutoff = 0.0f;
-    if (blends) blended_.push_back(object.name);
     object.casts = flag(nodeIndex, "casts");
     object.receives = flag(nodeIndex, "receives");
-    scene_.objects.push_back(std::move(object));
+    waiting_.push_back({std::move(object), material, request.flattening != nullptr});
     return {};
+  }
+
+  void addObjects(const std::vector<GltfMaterial>& materials) {
+    for (WaitingObject& waiting : waiting_) {
+      SceneObject& object = waiting.object;
+      GltfMaterial material;
+      material.material.doubleSided = false;  // the format's default
+      if (waiting.material >= 0) material = materials[waiting.material];
+      const Presence presence = presenceOf(material, *object.mesh);
+      if (presence == Presence::nothing) {
+        absent_.push_back(object.name);
+        continue;
+      }
+      object.material = material.material;
+      if (object.mesh->texcoords.empty()) object.material.baseColorImage = nullptr;
+      if (presence == Presence::whole) object.material.alphaCutoff = 0.0f;
+      // What is flattened has both its sides in one place.
+      object.material.doubleSided = object.material.doubleSided || waiting.isFlattened;
+      if (material.blends) blended_.push_back(object.name);
+      scene_.objects.push_back(std::move(object));
+    }
   }
 
   void noteWhatWasSkipped() {
@@ -282,7 +296,8 @@ class GltfSceneBuilder {
     scene_.camera->nearDistance = 1e-3 * distance;  // fitted to the scene by whoever completes it
     scene_.camera->farDistance = distance + 2.0 * bounds.radius();
     if (source.type == "orthographic") {
-      if (Status status = moveFarAway(source.orthographic, what, *scene_.camera); !status) return status;
+      if (Status status = moveFarAway(source.orthographic, what, bounds.radius(), *scene_.camera); !status)
+        return status;
     }
     if (Status status = scene::checkCamera(*scene_.camera); !status) {
       return malformed(what + ": " + status.error().message);
@@ -290,24 +305,26 @@ class GltfSceneBuilder {
     return {};
   }
 
-  /// An orthographic camera as a perspective one from so far away that its rays are parallel within a
-  /// fifth of a degree over a scene as deep as the picture is high.
+  /// An orthographic camera as a perspective one from far away: a thousand half heights for a scene about as
+  /// deep as the picture is high, over which nothing is off by a two-thousandth of the height then, a quarter
+  /// of a pixel of 480. Deeper scenes are seen from farther, but less so than they are deep: what is
+  /// far away costs single precision its digits.
   static Status moveFarAway(const tinygltf::OrthographicCamera& source, const std::string& what,
-                            scene::Camera& camera) {
-    constexpr double kHeights = 300.0;
+                            double radius, scene::Camera& camera) {
+    constexpr double kHalfHeights = 1000.0;
     const double halfHeight = std::abs(source.ymag);
     if (!(halfHeight > 0.0) || !std::isfinite(halfHeight)) {
       return malformed(what + " has a ymag of " + std::to_string(source.ymag) +
                        "; give a number that is not 0");
     }
     const glm::dvec3 way = camera.targetWorld - camera.eyeWorld;
-    const double moved = kHeights * std::max(halfHeight, glm::length(way));
-    camera.eyeWorld -= glm::normalize(way) * moved;
-    const double distance = glm::length(camera.targetWorld - camera.eyeWorld);
+    const double distance = kHalfHeights * std::sqrt(halfHeight * std::max(halfHeight, radius));
+    camera.eyeWorld = camera.targetWorld - glm::normalize(way) * distance;
     camera.verticalFovRadians = 2.0 * std::atan(halfHeight / distance);
-    camera.nearDistance = moved + 1e-3 * glm::length(way);
-    camera.leastNearDistance = moved + std::max(source.znear, 0.0);
-    camera.farDistance = std::max(camera.farDistance + moved, 2.0 * distance);
+    camera.leastNearDistance =
+        std::max(distance - glm::length(way) + std::max(source.znear, 0.0), 1e-3 * distance);
+    camera.nearDistance = camera.leastNearDistance;
+    camera.farDistance = 2.0 * std::max(distance, camera.leastNearDistance);
     return {};
   }
 
@@ -324,7 +341,13 @@ class GltfSceneBuilder {
   const GltfOptions& options_;
   SceneDescription scene_;
   Pose pose_;
-  std::vector<GltfMaterial> materials_;
+  GltfImages images_;
+  struct WaitingObject {
+    SceneObject object;
+    int material = -1;  ///< of the file; -1: none
+    bool isFlattened = false;
+  };
+  std::vector<WaitingObject> waiting_;
   std::vector<std::string> absent_, blended_;  ///< objects by name
   SkippedPrimitives skipped_;
   std::vector<PendingLight> lights_;

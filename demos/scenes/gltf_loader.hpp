@@ -27,7 +27,8 @@ struct GltfOptions {
 /// are images that cannot be decoded and extensions that are not honoured.
 ///
 /// Materials: base colour factor and image (PNG, JPEG or WebP; v downwards), colours of vertices, alpha
-/// cutoff of MASK; BLEND is cut at one half. Objects without anything above the cutoff are left out.
+/// cutoff of MASK; BLEND is cut at one half; doubleSided (see SceneOptions::sides). Objects without anything
+/// above the cutoff are left out. Images are decoded on threads beside the one that makes the meshes.
 ///
 /// Extras on nodes: {"halfshadow": {"casts": false, "receives": false}}, also for the
 /// nodes below unless they say otherwise. Lights (KHR_lights_punctual) become

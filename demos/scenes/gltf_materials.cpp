@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "scenes/gltf_accessors.hpp"
-#include "scenes/gltf_images.hpp"
 
 namespace halfshadow::scenes {
 namespace {
@@ -36,57 +35,62 @@ float cutoffOf(const tinygltf::Material& source) {
   return static_cast<float>(std::max(source.alphaCutoff, 0.0));
 }
 
-/// Least and greatest alpha of all that the material and the mesh give.
-struct AlphaRange {
-  float low = 1.0f, high = 1.0f;
-  void times(float otherLow, float otherHigh) { low *= otherLow, high *= otherHigh; }
-};
-
-AlphaRange alphaRangeOf(const scene::Material& material, const scene::TriangleMesh& mesh) {
-  AlphaRange range{material.baseColor.a, material.baseColor.a};
-  if (!mesh.colors.empty()) {
-    const auto [low, high] =
-        std::ranges::minmax(mesh.colors, {}, [](const glm::vec4& color) { return color.a; });
-    range.times(low.a, high.a);
-  }
-  const scene::Image* image = material.baseColorImage.get();
-  if (image == nullptr || image->channels != 4 || mesh.texcoords.empty()) return range;
+AlphaRange alphaRangeOf(const scene::Image& image) {
+  if (image.channels != 4) return {};
   std::uint8_t low = 255, high = 0;
-  for (std::size_t i = 3; i < image->pixels.size(); i += 4) {
-    low = std::min(low, image->pixels[i]);
-    high = std::max(high, image->pixels[i]);
+  for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
+    low = std::min(low, image.pixels[i]);
+    high = std::max(high, image.pixels[i]);
   }
-  range.times(static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f);
-  return range;
+  return {static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f};
 }
 
-/// Diffuse colour of KHR_materials_pbrSpecularGlossiness, where a material has that; files of before 2021 do.
+/// Base colour, or the diffuse one of KHR_materials_pbrSpecularGlossiness where a material has that; files of
+/// before 2021 do.
 struct BaseColor {
   std::vector<double> factor;
-  int texture = -1;
+  int texture = -1, set = 0;
+  const tinygltf::Value* transform = nullptr;  ///< KHR_texture_transform; null: none
 };
-BaseColor baseColorOf(const tinygltf::Material& source) {
-  BaseColor base{source.pbrMetallicRoughness.baseColorFactor,
-                 source.pbrMetallicRoughness.baseColorTexture.index};
-  const auto found = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
-  if (found == source.extensions.end() || !found->second.IsObject()) return base;
-  const tinygltf::Value& factor = found->second.Get("diffuseFactor");
-  base.factor = {1, 1, 1, 1};
-  for (int c = 0; c < 4 && factor.ArrayLen() == 4; ++c) {
-    if (factor.Get(c).IsNumber()) base.factor[c] = factor.Get(c).GetNumberAsDouble();
+
+const tinygltf::Value* objectIn(const tinygltf::Value& value, const char* key) {
+  const tinygltf::Value& found = value.Get(key);
+  return found.IsObject() ? &found : nullptr;
+}
+
+BaseColor diffuseColorOf(const tinygltf::Value& extension) {
+  BaseColor base{.factor = {1, 1, 1, 1}};
+  const tinygltf::Value& factor = extension.Get("diffuseFactor");
+  for (int c = 0; c < 4 && factor.IsArray() && factor.ArrayLen() == 4; ++c) {
+    if (factor.Get(c).IsNumber())
+      base.factor[static_cast<std::size_t>(c)] = factor.Get(c).GetNumberAsDouble();
   }
-  const tinygltf::Value& texture = found->second.Get("diffuseTexture");
-  base.texture = texture.IsObject() ? indexIn(texture.Get("index")) : -1;
+  const tinygltf::Value* texture = objectIn(extension, "diffuseTexture");
+  if (texture == nullptr) return base;
+  base.texture = indexIn(texture->Get("index"));
+  if (const int set = indexIn(texture->Get("texCoord")); set >= 0) base.set = set;
+  const tinygltf::Value* extensions = objectIn(*texture, "extensions");
+  if (extensions != nullptr) base.transform = objectIn(*extensions, "KHR_texture_transform");
+  return base;
+}
+
+BaseColor baseColorOf(const tinygltf::Material& source) {
+  const auto extension = source.extensions.find("KHR_materials_pbrSpecularGlossiness");
+  if (extension != source.extensions.end() && extension->second.IsObject())
+    return diffuseColorOf(extension->second);
+  const tinygltf::TextureInfo& texture = source.pbrMetallicRoughness.baseColorTexture;
+  BaseColor base{source.pbrMetallicRoughness.baseColorFactor, texture.index, texture.texCoord};
+  const auto found = texture.extensions.find("KHR_texture_transform");
+  if (found != texture.extensions.end() && found->second.IsObject()) base.transform = &found->second;
   return base;
 }
 }  // namespace
 
 TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
-  const tinygltf::TextureInfo& texture = material.pbrMetallicRoughness.baseColorTexture;
-  TextureCoordinates result{.set = texture.texCoord};
-  const auto found = texture.extensions.find("KHR_texture_transform");
-  if (found == texture.extensions.end() || !found->second.IsObject()) return result;
-  const tinygltf::Value& transform = found->second;
+  const BaseColor base = baseColorOf(material);
+  TextureCoordinates result{.set = base.set};
+  if (base.transform == nullptr) return result;
+  const tinygltf::Value& transform = *base.transform;
   const auto pair = [&](const char* key, glm::dvec2 otherwise) {
     const tinygltf::Value& value = transform.Get(key);
     if (!value.IsArray() || value.ArrayLen() != 2 || !value.Get(0).IsNumber() || !value.Get(1).IsNumber())
@@ -104,15 +108,27 @@ TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
   return result;
 }
 
-Presence presenceOf(const scene::Material& material, const scene::TriangleMesh& mesh) {
+Presence presenceOf(const GltfMaterial& source, const scene::TriangleMesh& mesh) {
+  const scene::Material& material = source.material;
   if (material.alphaCutoff <= 0.0f) return Presence::whole;
-  const AlphaRange range = alphaRangeOf(material, mesh);
+  AlphaRange range{material.baseColor.a, material.baseColor.a};
+  if (!mesh.colors.empty()) {
+    const auto [low, high] =
+        std::ranges::minmax(mesh.colors, {}, [](const glm::vec4& color) { return color.a; });
+    range.times({low.a, high.a});
+  }
+  if (!mesh.texcoords.empty()) range.times(source.imageAlpha);
   if (range.high < material.alphaCutoff) return Presence::nothing;
   return range.low >= material.alphaCutoff ? Presence::whole : Presence::withHoles;
 }
 
-std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, std::vector<std::string>& notes) {
-  GltfImages images(model, notes);
+std::vector<int> baseColorTextures(const tinygltf::Model& model) {
+  std::vector<int> textures;
+  for (const tinygltf::Material& source : model.materials) textures.push_back(baseColorOf(source).texture);
+  return textures;
+}
+
+std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, GltfImages& images) {
   std::vector<GltfMaterial> materials;
   for (const tinygltf::Material& source : model.materials) {
     GltfMaterial result{.blends = source.alphaMode == "BLEND"};
@@ -128,6 +144,8 @@ std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, std::vector<
     if (base.texture >= 0) {
       material.baseColorImage = images.ofTexture(base.texture);
       material.sampling = samplingOf(model, base.texture);
+      if (material.baseColorImage && material.alphaCutoff > 0.0f)
+        result.imageAlpha = alphaRangeOf(*material.baseColorImage);
     }
     materials.push_back(std::move(result));
   }

@@ -59,8 +59,7 @@ bool isFloor(const SceneDescription& description, const std::vector<Bounds>& bou
          bounds[candidate].low.y <= others.low.y && bounds[candidate].high.y <= others.center().y;
 }
 
-bool hasFloor(const SceneDescription& description) {
-  const std::vector<Bounds> bounds = boundsPerObject(description);
+bool hasFloor(const SceneDescription& description, const std::vector<Bounds>& bounds) {
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     if (isFloor(description, bounds, i)) return true;
   }
@@ -71,8 +70,7 @@ bool hasFloor(const SceneDescription& description) {
 constexpr double kWideFloorRadii = 2.0;
 
 /// What light and camera are fitted to: the casters without what is only the floor under them.
-Bounds subjectBounds(const SceneDescription& description) {
-  const std::vector<Bounds> bounds = boundsPerObject(description);
+Bounds subjectBounds(const SceneDescription& description, const std::vector<Bounds>& bounds) {
   Bounds subject, all;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     all.include(bounds[i]);
@@ -100,10 +98,10 @@ void addGround(SceneDescription& description, const Bounds& subject, double heig
 }
 
 /// With the camera and the lights that the scene has in the end.
-void addGroundIfWanted(SceneDescription& description, const TriangleTree& tree, const Bounds& subject,
-                       GroundMode mode) {
+void addGroundIfWanted(SceneDescription& description, const TriangleTree& tree,
+                       const std::vector<Bounds>& bounds, const Bounds& subject, GroundMode mode) {
   if (mode == GroundMode::off || hasGround(description)) return;
-  if (mode == GroundMode::automatic && hasFloor(description)) return;
+  if (mode == GroundMode::automatic && hasFloor(description, bounds)) return;
   const GroundPlace place = groundPlaceFor(description, tree);
   if (mode == GroundMode::automatic && !place.wanted) {
     description.notes.push_back(place.note);
@@ -126,8 +124,7 @@ Status addLight(SceneDescription& description, const TriangleTree& tree, const B
   return {};
 }
 
-void addCamera(SceneDescription& description, const Bounds& subject) {
-  const std::vector<Bounds> bounds = boundsPerObject(description);
+void addCamera(SceneDescription& description, const std::vector<Bounds>& bounds, const Bounds& subject) {
   std::vector<char> isSubject;
   for (std::size_t i = 0; i < bounds.size(); ++i) {
     const bool isWideFloor =
@@ -172,14 +169,15 @@ Status completeUpright(SceneDescription& description, const SceneOptions& option
     return Error{ErrorCode::emptyScene,
                  description.name + ": the scene has no triangles; give one that has some"};
   }
-  const Bounds subject = subjectBounds(description);
+  const std::vector<Bounds> bounds = boundsPerObject(description);
+  const Bounds subject = subjectBounds(description, bounds);
   const TriangleTree tree(description);
   if (description.lights.empty()) {
     if (Status status = addLight(description, tree, subject); !status) return status;
   }
-  if (!description.camera) addCamera(description, subject);
+  if (!description.camera) addCamera(description, bounds, subject);
   if (Status status = scene::checkCamera(*description.camera); !status) return status;
-  addGroundIfWanted(description, tree, subject, options.ground);
+  addGroundIfWanted(description, tree, bounds, subject, options.ground);
   if (std::ranges::none_of(description.objects, &SceneObject::receives)) {
     return Error{ErrorCode::emptyScene,
                  description.name +
@@ -194,6 +192,9 @@ Status completeScene(SceneDescription& description, const SceneOptions& options)
   if (!(glm::length(options.up) > 0.0) || !std::isfinite(glm::length(options.up))) {
     return Error{ErrorCode::invalidArgument,
                  "the up axis needs a direction; give finite numbers, not all zero"};
+  }
+  if (options.sides == Sides::both) {
+    for (SceneObject& object : description.objects) object.material.doubleSided = true;
   }
   if (options.light) description.lights = {*options.light};
   description.lights.insert(description.lights.end(), options.moreLights.begin(), options.moreLights.end());

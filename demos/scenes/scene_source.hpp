@@ -19,6 +19,10 @@ namespace halfshadow::scenes {
 /// their middle, or lies below all of them and covers a quarter of what they do.
 enum class GroundMode { automatic, on, off };
 
+/// From where a file's materials that are not doubleSided are seen: both sides, or as the file says the front
+/// (see scene::showsBackFaces).
+enum class Sides { both, asInFile };
+
 struct SceneOptions {
   GroundMode ground = GroundMode::automatic;
   double animationTimeSeconds = 0.0;         ///< files only
@@ -28,6 +32,7 @@ struct SceneOptions {
   std::vector<scene::AreaLight> moreLights;  ///< stand beside `light`
   /// What the scene takes for upward: where an added ground, lamp and camera stand. Need not be unit.
   glm::dvec3 up{0, 1, 0};
+  Sides sides = Sides::asInFile;
 };
 
 /// Opens `builtin:NAME[@key=value,…]` or a .gltf/.glb file. The result always has a camera, at least one
@@ -52,7 +57,7 @@ Status completeScene(scene::SceneDescription& description, const SceneOptions& o
 /// Sets near to 0.9 × the smallest view depth of what is seen in an image of aspect up to 2:1, however far
 /// the scene goes on behind it; slivers nearer than a fiftieth of what rays through the image meet first are
 /// left out of that when it is less than 1/5000 of far. Sets far to 1.1 × the largest view depth of all
-/// vertices.
+/// vertices. Of cameras that stand far away (see Camera::leastNearDistance) both hold the scene more tightly.
 void fitNearAndFar(scene::Camera& camera, const scene::SceneDescription& description);
 
 }  // namespace halfshadow::scenes

@@ -105,6 +105,7 @@ HalfshadowError halfshadow_add_object(HalfshadowEngine* engine, const Halfshadow
   object.baseColorHeight = desc->base_color_height;
   object.baseColorChannels = desc->base_color_channels ? desc->base_color_channels : 4;
   object.alphaCutoff = desc->alpha_cutoff;
+  object.singleSided = desc->single_sided != 0;
   return finish(engine, engine->engine->addObject(object, *id));
 }
 

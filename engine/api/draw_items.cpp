@@ -13,19 +13,21 @@ namespace halfshadow::api {
 techniques::DrawItem drawItem(const EngineObject& object) {
   const api::ObjectMesh& mesh = *object.mesh;
   const scene::MeshStatistics& statistics = mesh.mesh().statistics;
+  // Through holes its inside is seen.
+  const bool closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0;
   return {.object = object.id,
           .mesh = &mesh.gpu(),
           .casts = object.casts,
           .receives = object.receives,
           .worldFromObject = object.worldFromObject,
           .baseColor = object.baseColor,
-          .baseColorTexture = object.baseColorTexture ? &object.baseColorTexture : nullptr,
-          .alphaMask = object.isCutOut() ? &object.alphaMask : nullptr,
+          .baseColorTexture = object.baseColorImage ? &object.baseColorImage->texture() : nullptr,
+          .alphaMask = object.isCutOut() ? &object.alphaMask->texture() : nullptr,
           .alphaCutoff = object.alphaCutoff,
           .vertexColors = !mesh.mesh().colors.empty(),
           .boundsWorld = object.boundsWorld,
-          // Through holes its inside is seen.
-          .closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0,
+          .closed = closed,
+          .frontOnly = object.singleSided && !closed && mesh.mesh().turned.empty(),
           .solidity = object.casts ? mesh.solidity() : 1.0f,
           .mirrored = object.mirrored,
           .facetStream = mesh.gpu().hasFacetStream(),

@@ -7,19 +7,18 @@
 namespace halfshadow {
 
 Status EngineObject::uploadTextures(gl::Context& context) {
-  auto colors = api::textureOf(context, baseColorImage);
-  if (!colors) return colors.error();
-  auto mask = api::textureOf(context, alphaMaskImage);
-  if (!mask) return mask.error();
-  baseColorTexture = std::move(colors).value();
-  alphaMask = std::move(mask).value();
+  for (const auto& image : {baseColorImage, alphaMask}) {
+    if (image == nullptr) continue;
+    if (Status s = image->upload(context); !s) return s;
+  }
   return {};
 }
 
 void EngineObject::forgetUploads() {
   mesh->forgetUpload();
-  baseColorTexture = {};
-  alphaMask = {};
+  for (const auto& image : {baseColorImage, alphaMask}) {
+    if (image != nullptr) image->forgetUpload();
+  }
   cutReceiver = {};
 }
 

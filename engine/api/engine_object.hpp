@@ -29,20 +29,19 @@ struct EngineObject {
   glm::dmat4 worldFromObject{1.0};        ///< of the recentred positions
   scene::Bounds boundsWorld;
   bool mirrored = false;
-  bool casts = true, receives = true;
+  bool casts = true, receives = true, singleSided = false;
   glm::vec4 baseColor{1.0f};
-  /// What the host gave, to be uploaded again on another context.
-  api::SurfaceImage baseColorImage, alphaMaskImage;
-  gl::Texture baseColorTexture;
-  gl::Texture alphaMask;     ///< of what alpha cuts holes into; see techniques::DrawItem
+  std::shared_ptr<api::SurfaceTexture> baseColorImage;  ///< null: none
+  std::shared_ptr<api::SurfaceTexture>
+      alphaMask;             ///< of what alpha cuts holes into; see techniques::DrawItem
   float alphaCutoff = 0.0f;  ///< of mask times vertex colour
   std::uint64_t revision = 0;
   mutable CutReceiver cutReceiver;  ///< of the last frame
 
-  /// Of the images that there are. Errors: outOfMemory, contextLost.
+  /// Of what is not there yet. Errors: outOfMemory, contextLost.
   Status uploadTextures(gl::Context& context);
   void forgetUploads();  ///< the context is gone
-  bool isCutOut() const { return !alphaMaskImage.bytes.empty(); }
+  bool isCutOut() const { return alphaMask != nullptr; }
   techniques::MeshExtras meshExtras() const {
     return isCutOut() ? techniques::MeshExtras::alpha : techniques::MeshExtras::none;
   }

@@ -39,13 +39,17 @@ Status checkPlace(const glm::dmat4& worldFromMesh, const scene::Bounds& bounds) 
                "the object reaches beyond 1e30 along an axis; give smaller positions or a smaller transform"};
 }
 
-Status addImages(gl::Context& context, const ObjectDesc& desc, EngineObject& object) {
-  const int limit = context.capabilities().limits.textureSize;
-  object.baseColorImage = api::baseColorImage(limit, desc);
-  object.alphaMaskImage = api::alphaMaskImage(limit, desc);
+Status addImages(gl::Context& context, api::SurfaceStore& store, const ObjectDesc& desc,
+                 EngineObject& object) {
+  auto colors = store.find(context, desc, api::SurfaceImageKind::baseColor);
+  if (!colors) return colors.error();
+  auto mask = store.find(context, desc, api::SurfaceImageKind::alphaMask);
+  if (!mask) return mask.error();
+  object.baseColorImage = std::move(colors).value();
+  object.alphaMask = std::move(mask).value();
   // The mask's texels stand for image alone: what else multiplies alpha divides the cutoff.
   object.alphaCutoff = desc.alphaCutoff / std::max(desc.baseColor[3], 1e-6f);
-  return object.uploadTextures(context);
+  return {};
 }
 }  // namespace
 
@@ -63,7 +67,8 @@ Outcome Engine::State::addObject(const ObjectDesc& desc, ObjectId& id) {
   if (Status status = api::checkSurface(desc); !status) return state.fail(status.error());
   gl::HostStateGuard guard(*state.context, state.policy());
   EngineObject object;
-  if (Status status = addImages(*state.context, desc, object); !status) return state.fail(status.error());
+  if (Status status = addImages(*state.context, state.surfaces, desc, object); !status)
+    return state.fail(status.error());
   auto mesh = state.meshes.find(*state.context, desc.mesh, object.meshExtras());
   if (!mesh) return state.fail(mesh.error());
   object.mesh = std::move(mesh).value();
@@ -73,6 +78,7 @@ Outcome Engine::State::addObject(const ObjectDesc& desc, ObjectId& id) {
     return state.fail(status.error());
   object.casts = desc.casts;
   object.receives = desc.receives;
+  object.singleSided = desc.singleSided;
   object.baseColor = glm::make_vec4(desc.baseColor);
   object.revision = state.nextRevision++;
   object.id = state.nextId;

@@ -109,6 +109,7 @@ struct Engine::State {
   std::vector<std::string> techniqueReasons, settingTexts;
   techniques::Technique* technique = nullptr;
   api::MeshStore meshes;
+  api::SurfaceStore surfaces;
   std::map<ObjectId, EngineObject> objects;
   api::SceneLists lists;  ///< of `objects`
   ObjectId nextId = 1;

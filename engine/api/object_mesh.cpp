@@ -3,7 +3,6 @@
 #include "api/object_mesh.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
@@ -107,35 +106,8 @@ float ObjectMesh::solidity() const {
   return *solidity_;
 }
 
-namespace {
-/// Two lanes of multiply and rotate, with odd constants of random bits.
-class Hasher {
- public:
-  void add(std::uint64_t value) {
-    low_ = std::rotl((low_ ^ value) * 0x9fb21c651e98df25ull, 29);
-    high_ = std::rotl((high_ + value) * 0xd6e8feb86659fd93ull, 37) ^ low_;
-  }
-  void add(const void* data, std::size_t byteCount) {
-    const auto* bytes = static_cast<const std::byte*>(data);
-    for (; byteCount >= 8; bytes += 8, byteCount -= 8) {
-      std::uint64_t word = 0;
-      std::memcpy(&word, bytes, 8);
-      add(word);
-    }
-    std::uint64_t rest = 0;
-    std::memcpy(&rest, bytes, byteCount);
-    add(rest);
-  }
-  std::uint64_t low() const { return low_; }
-  std::uint64_t high() const { return high_ * 0x9fb21c651e98df25ull ^ high_ >> 31; }
-
- private:
-  std::uint64_t low_ = 0x3c79ac492ba7b653ull, high_ = 0x1c69b3f74ac4ae35ull;
-};
-}  // namespace
-
-MeshStore::Key MeshStore::keyOf(const MeshDesc& desc, techniques::MeshExtras extras) {
-  Hasher hasher;
+ContentKey MeshStore::keyOf(const MeshDesc& desc, techniques::MeshExtras extras) {
+  ContentHasher hasher;
   hasher.add(desc.vertexCount);
   hasher.add(static_cast<std::uint64_t>(extras));
   const auto* positions = reinterpret_cast<const std::byte*>(desc.positions);
@@ -149,7 +121,7 @@ MeshStore::Key MeshStore::keyOf(const MeshDesc& desc, techniques::MeshExtras ext
     hasher.add(values != nullptr ? 1u : 2u);
     if (values != nullptr) hasher.add(values, std::size_t{desc.vertexCount} * width);
   }
-  return {hasher.low(), hasher.high()};
+  return hasher.key();
 }
 
 Result<std::shared_ptr<ObjectMesh>> MeshStore::find(gl::Context& context, const MeshDesc& desc,

@@ -4,11 +4,11 @@
 /// Meshes apart from the objects that show them: instances share one, on the CPU and on the GPU.
 #pragma once
 
-#include <cstdint>
 #include <memory>
 #include <optional>
 #include <unordered_map>
 
+#include "base/content_hash.hpp"
 #include "halfshadow/types.hpp"
 #include "scene/bounds.hpp"
 #include "scene/convex_hull.hpp"
@@ -67,16 +67,8 @@ class MeshStore {
                                            techniques::MeshExtras extras);
 
  private:
-  /// 128 bits of hash: two meshes that share them are taken for one.
-  struct Key {
-    std::uint64_t low = 0, high = 0;
-    bool operator==(const Key&) const = default;
-  };
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const { return static_cast<std::size_t>(key.low); }
-  };
-  static Key keyOf(const MeshDesc& desc, techniques::MeshExtras extras);
-  std::unordered_map<Key, std::weak_ptr<ObjectMesh>, KeyHash> meshes_;
+  static ContentKey keyOf(const MeshDesc& desc, techniques::MeshExtras extras);
+  std::unordered_map<ContentKey, std::weak_ptr<ObjectMesh>, ContentKey::Hash> meshes_;
   std::size_t sweepAt_ = 64;  ///< so many entries are looked through for those that nobody holds any more
 };
 

@@ -85,13 +85,16 @@ bool reachesBeyondImage(const ObjectDesc& desc) {
   return std::any_of(desc.mesh.texcoords, end, [](float t) { return t < 0.0f || t > 1.0f; });
 }
 
+bool needsPowersOfTwo(const ObjectDesc& desc) {
+  return (desc.baseColorWrapU != ImageWrap::clampToEdge || desc.baseColorWrapV != ImageWrap::clampToEdge) &&
+         reachesBeyondImage(desc);
+}
+
 /// ES 2.0 repeats images of sizes that are powers of two, and no others: those become such ones where it
 /// matters, and ones above the device's limit are brought below it.
 Texels fitted(int sizeLimit, Texels texels, const ObjectDesc& desc) {
   const auto limit = static_cast<std::size_t>(sizeLimit);
-  const bool repeats =
-      (desc.baseColorWrapU != ImageWrap::clampToEdge || desc.baseColorWrapV != ImageWrap::clampToEdge) &&
-      reachesBeyondImage(desc);
+  const bool repeats = needsPowersOfTwo(desc);
   const auto side = [&](std::size_t size) {
     return std::min(repeats ? std::bit_ceil(size) : size, std::bit_floor(limit));
   };
@@ -134,8 +137,9 @@ Status checkSurface(const ObjectDesc& desc) {
   return {};
 }
 
+namespace {
+/// Colours alone, with mips where the size is a power of two. `sizeLimit`: of the device's textures.
 SurfaceImage baseColorImage(int sizeLimit, const ObjectDesc& desc) {
-  if (desc.baseColorPixels == nullptr) return {};
   Texels texels = fitted(sizeLimit, texelsOf(desc, 4), desc);
   device::TextureDesc texture = textureDesc(texels, desc);
   texture.mipmapped = std::has_single_bit(texels.width) && std::has_single_bit(texels.height);
@@ -146,8 +150,9 @@ SurfaceImage baseColorImage(int sizeLimit, const ObjectDesc& desc) {
   return {texture, std::move(texels.bytes)};
 }
 
+/// Alpha alone, without mips: a hole is as large from far away as from near. One opaque texel without an
+/// image.
 SurfaceImage alphaMaskImage(int sizeLimit, const ObjectDesc& desc) {
-  if (!(desc.alphaCutoff > 0.0f)) return {};
   const bool hasImage = desc.baseColorPixels != nullptr;
   Texels texels = hasImage ? fitted(sizeLimit, texelsOf(desc, 1), desc) : Texels();
   device::TextureDesc texture = textureDesc(texels, desc);
@@ -155,10 +160,48 @@ SurfaceImage alphaMaskImage(int sizeLimit, const ObjectDesc& desc) {
   return {texture, std::move(texels.bytes)};
 }
 
-Result<gl::Texture> textureOf(gl::Context& context, const SurfaceImage& image) {
-  if (image.bytes.empty()) return gl::Texture();
-  auto made = gl::Texture::create(context, image.desc, image.bytes.data());
-  if (made && image.desc.mipmapped) made->generateMipmaps(context);
+ContentKey keyOf(const ObjectDesc& desc, SurfaceImageKind kind) {
+  ContentHasher hasher;
+  hasher.add(static_cast<std::uint64_t>(kind));
+  if (desc.baseColorPixels == nullptr) return hasher.key();
+  const auto width = static_cast<std::size_t>(desc.baseColorWidth),
+             height = static_cast<std::size_t>(desc.baseColorHeight),
+             channels = static_cast<std::size_t>(desc.baseColorChannels);
+  for (const std::uint64_t value : {width, height, channels}) hasher.add(value);
+  hasher.add(static_cast<std::uint64_t>(desc.baseColorWrapU));
+  hasher.add(static_cast<std::uint64_t>(desc.baseColorWrapV));
+  hasher.add(static_cast<std::uint64_t>(desc.baseColorFilter));
+  hasher.add(needsPowersOfTwo(desc) ? 1u : 0u);
+  hasher.add(desc.baseColorPixels, width * height * channels);
+  return hasher.key();
+}
+}  // namespace
+
+Status SurfaceTexture::upload(gl::Context& context) {
+  if (texture_) return {};
+  auto made = gl::Texture::create(context, image_.desc, image_.bytes.data());
+  if (!made) return made.error();
+  if (image_.desc.mipmapped) made->generateMipmaps(context);
+  texture_ = std::move(made).value();
+  return {};
+}
+
+Result<std::shared_ptr<SurfaceTexture>> SurfaceStore::find(gl::Context& context, const ObjectDesc& desc,
+                                                           SurfaceImageKind kind) {
+  const bool isMask = kind == SurfaceImageKind::alphaMask;
+  if (isMask ? !(desc.alphaCutoff > 0.0f) : desc.baseColorPixels == nullptr)
+    return std::shared_ptr<SurfaceTexture>();
+  if (textures_.size() >= sweepAt_) {
+    std::erase_if(textures_, [](const auto& entry) { return entry.second.expired(); });
+    sweepAt_ = std::max<std::size_t>(64, 2 * textures_.size());
+  }
+  std::weak_ptr<SurfaceTexture>& known = textures_[keyOf(desc, kind)];
+  if (auto texture = known.lock()) return texture;
+  const int limit = context.capabilities().limits.textureSize;
+  auto made =
+      std::make_shared<SurfaceTexture>(isMask ? alphaMaskImage(limit, desc) : baseColorImage(limit, desc));
+  if (Status status = made->upload(context); !status) return status.error();
+  known = made;
   return made;
 }
 

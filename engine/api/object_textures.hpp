@@ -5,8 +5,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
+#include "base/content_hash.hpp"
 #include "gl/objects.hpp"
 #include "halfshadow/types.hpp"
 
@@ -15,20 +19,39 @@ namespace halfshadow::api {
 /// Checks what a description says of images and alpha. Errors: invalidArgument.
 Status checkSurface(const ObjectDesc& desc);
 
-/// Texels as they are uploaded; none: no texture.
+/// Texels as they are uploaded.
 struct SurfaceImage {
   device::TextureDesc desc;
   std::vector<std::uint8_t> bytes;
 };
 
-/// Colours alone, with mips where the size is a power of two. `sizeLimit`: of the device's textures.
-SurfaceImage baseColorImage(int sizeLimit, const ObjectDesc& desc);
+/// A host's image on the GPU, and once more beside it, for the next context; all objects that show it share
+/// both.
+class SurfaceTexture {
+ public:
+  explicit SurfaceTexture(SurfaceImage image) : image_(std::move(image)) {}
+  /// Unless it is there already. Errors: outOfMemory, contextLost.
+  Status upload(gl::Context& context);
+  void forgetUpload() { texture_ = {}; }  ///< the context is gone
+  const gl::Texture& texture() const { return texture_; }
 
-/// Alpha alone, without mips: a hole is as large from far away as from near. Of one opaque texel without an
-/// image; none where there is no cutoff.
-SurfaceImage alphaMaskImage(int sizeLimit, const ObjectDesc& desc);
+ private:
+  SurfaceImage image_;
+  gl::Texture texture_;
+};
 
-/// No texture of no image. Errors: outOfMemory, contextLost.
-Result<gl::Texture> textureOf(gl::Context& context, const SurfaceImage& image);
+enum class SurfaceImageKind { baseColor, alphaMask };
+
+/// Finds what an earlier object uploaded of the same image, by all that matters of it.
+class SurfaceStore {
+ public:
+  /// Null: no image, or for a mask no cutoff. Errors: outOfMemory, contextLost.
+  Result<std::shared_ptr<SurfaceTexture>> find(gl::Context& context, const ObjectDesc& desc,
+                                               SurfaceImageKind kind);
+
+ private:
+  std::unordered_map<ContentKey, std::weak_ptr<SurfaceTexture>, ContentKey::Hash> textures_;
+  std::size_t sweepAt_ = 64;  ///< so many entries are looked through for those that nobody holds any more
+};
 
 }  // namespace halfshadow::api

@@ -178,6 +178,7 @@ void EmbreeScene::intersectWith(const RTCIntersectFunctionNArguments* arguments)
   const SeenTriangle seen(cornersOf(geometry.mesh, arguments->primID), context.origin);
   const double slope = glm::dot(seen.normal, d);
   if (slope == 0.0 || !seen.pierced(d.x, d.y, d.z)) return;
+  if (geometry.mesh.frontOnly && (slope > 0.0) != geometry.mesh.mirrored) return;
   if (!isThere(geometry.mesh, arguments->primID, seen, d.x, d.y, d.z)) return;
   const double distance = seen.offset / slope;
   if (distance < context.nearest || distance > context.best.distance) return;

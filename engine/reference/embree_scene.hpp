@@ -40,6 +40,8 @@ struct TraceMesh {
   std::vector<std::uint32_t> indices;
   /// Whose alpha cuts holes into it, or null; lives as long as the tracer.
   const scene::SceneObject* cutBy = nullptr;
+  /// Of nearest() alone: its back faces are not there; `mirrored`: its transform turned the winding round.
+  bool frontOnly = false, mirrored = false;
 };
 
 TraceMesh traceMeshOf(const scene::SceneObject& object, const TraceSpace& space);

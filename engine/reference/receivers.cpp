@@ -18,6 +18,8 @@ Result<ReceiverImage> traceReceivers(const scene::SceneDescription& scene, const
   bool anyTriangle = false;
   for (const scene::SceneObject& object : scene.objects) {
     meshes.push_back(traceMeshOf(object, space));
+    meshes.back().frontOnly = !scene::showsBackFaces(*object.mesh, object.material);
+    meshes.back().mirrored = glm::determinant(glm::dmat3(object.worldFromObject)) < 0.0;
     anyTriangle = anyTriangle || !meshes.back().indices.empty();
   }
   if (!anyTriangle)

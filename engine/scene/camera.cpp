@@ -63,6 +63,14 @@ glm::dmat4 clipFromView(const Camera& camera, double aspectWidthOverHeight) {
                           camera.farDistance);
 }
 
+std::optional<glm::dvec3> sightBegin(const Camera& camera, const glm::dvec3& placeWorld) {
+  if (!(camera.leastNearDistance > 0.0)) return camera.eyeWorld;
+  const glm::dvec3 way = placeWorld - camera.eyeWorld;
+  const double depth = glm::dot(way, glm::normalize(camera.targetWorld - camera.eyeWorld));
+  if (!(depth > camera.leastNearDistance)) return std::nullopt;
+  return camera.eyeWorld + way * (camera.leastNearDistance / depth);
+}
+
 double nearReach(const Camera& camera, double aspectWidthOverHeight) {
   const double tangent = std::tan(0.5 * camera.verticalFovRadians);
   return camera.nearDistance *

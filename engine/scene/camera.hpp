@@ -5,6 +5,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <optional>
 
 #include "base/error.hpp"
 
@@ -17,7 +18,9 @@ struct Camera {
   double verticalFovRadians = 0.8;
   double nearDistance = 0.1;  ///< along the view axis, > 0
   double farDistance = 1000.0;
-  double leastNearDistance = 0.0;  ///< what is nearer is not meant to be seen; only who fits `near` reads it
+  /// What is nearer is not meant to be seen: of cameras that stand farther away than what they stand for.
+  /// Read by who fits near and far to a scene.
+  double leastNearDistance = 0.0;
 };
 
 /// invalidCamera when NaN, eye equals target, field of view outside (0, π), or near/far not 0 < near < far.
@@ -27,6 +30,10 @@ Status checkCamera(const Camera& camera);
 glm::dmat4 viewFromWorld(const Camera& camera);
 /// OpenGL clip space, depth -1 … 1.
 glm::dmat4 clipFromView(const Camera& camera, double aspectWidthOverHeight);
+
+/// Where on the way from the eye to a place the camera begins to see; none where the place is too near.
+/// `near` is not fitted yet.
+std::optional<glm::dvec3> sightBegin(const Camera& camera, const glm::dvec3& placeWorld);
 
 /// From the eye to the near plane's corners, world units.
 double nearReach(const Camera& camera, double aspectWidthOverHeight);

@@ -8,17 +8,30 @@
 namespace halfshadow::scene {
 
 std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> faces) {
-  std::vector<EdgeUse> uses;
-  uses.reserve(faces.size() * 3);
-  for (std::uint32_t f = 0; f < faces.size(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      const std::uint64_t a = faces[f][k], b = faces[f][(k + 1) % 3];
-      uses.push_back({a < b ? a << 32 | b : b << 32 | a, f, a < b});
+  // Counted by the lesser end first: what is left to sort are the few edges of one vertex.
+  std::uint32_t last = 0;
+  for (const glm::uvec3& face : faces) last = std::max({last, face.x, face.y, face.z});
+  std::vector<std::size_t> begins(faces.empty() ? 1 : std::size_t{last} + 2, 0);
+  const auto forEachUse = [&](const auto& visit) {
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const std::uint64_t a = faces[f][k], b = faces[f][(k + 1) % 3];
+        visit(EdgeUse{a < b ? a << 32 | b : b << 32 | a, f, a < b});
+      }
     }
+  };
+  const auto lesserEnd = [](const EdgeUse& use) { return static_cast<std::size_t>(use.key >> 32); };
+  forEachUse([&](const EdgeUse& use) { ++begins[lesserEnd(use) + 1]; });
+  std::partial_sum(begins.begin(), begins.end(), begins.begin());
+  std::vector<EdgeUse> uses(faces.size() * 3);
+  std::vector<std::size_t> next = begins;
+  forEachUse([&](const EdgeUse& use) { uses[next[lesserEnd(use)]++] = use; });
+  for (std::size_t vertex = 0; vertex + 1 < begins.size(); ++vertex) {
+    std::sort(
+        uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex]),
+        uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex + 1]),
+        [](const EdgeUse& a, const EdgeUse& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
   }
-  std::sort(uses.begin(), uses.end(), [](const EdgeUse& a, const EdgeUse& b) {
-    return a.key != b.key ? a.key < b.key : a.face < b.face;
-  });
   return uses;
 }
 

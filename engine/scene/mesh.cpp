@@ -9,8 +9,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <string>
-#include <unordered_map>
-#include <unordered_set>
 
 #include "scene/bounds.hpp"
 #include "scene/edge_uses.hpp"
@@ -20,12 +18,33 @@ namespace halfshadow::scene {
 namespace {
 using Corners = std::array<std::uint32_t, 3>;
 
-std::size_t mix(std::size_t hash, std::uint32_t value) {
-  return (hash ^ value) * 0x9E3779B97F4A7C15ull + (hash >> 29);
-}
+/// Numbers of things under a hash of three words each: open addressing, at most half full.
+class CornersTable {
+ public:
+  explicit CornersTable(std::size_t most)
+      : bits_(static_cast<int>(std::bit_width(std::max<std::size_t>(most, 2))) + 1),
+        places_(std::size_t{1} << bits_, kFree) {}
 
-struct CornersHash {
-  std::size_t operator()(const Corners& c) const { return mix(mix(mix(0, c[0]), c[1]), c[2]); }
+  /// The number of an earlier thing that `isSame(number)` tells equal, else `number`, which is added.
+  template <typename IsSame>
+  std::uint32_t firstEqual(const Corners& corners, std::uint32_t number, const IsSame& isSame) {
+    for (std::size_t at = placeOf(corners);; at = (at + 1) & (places_.size() - 1)) {
+      if (places_[at] == kFree) return places_[at] = number;
+      if (isSame(places_[at])) return places_[at];
+    }
+  }
+
+ private:
+  static constexpr std::uint32_t kFree = ~0u;
+  std::size_t placeOf(const Corners& c) const {
+    constexpr std::uint64_t kOdd = 0x9E3779B97F4A7C15ull;
+    std::uint64_t hash = (c[0] | std::uint64_t{c[1]} << 32) * kOdd;
+    hash = (hash ^ hash >> 32 ^ c[2]) * kOdd;
+    hash = (hash ^ hash >> 29) * kOdd;
+    return static_cast<std::size_t>(hash >> (64 - bits_));
+  }
+  int bits_;
+  std::vector<std::uint32_t> places_;
 };
 
 Corners positionBits(const glm::vec3& p) {
@@ -57,11 +76,12 @@ Result<std::vector<glm::vec3>> copyPositions(const MeshView& view) {
 }
 
 std::vector<std::uint32_t> weldByPosition(const std::vector<glm::vec3>& positions) {
-  std::unordered_map<Corners, std::uint32_t, CornersHash> firstAt;
-  firstAt.reserve(positions.size());
+  CornersTable firstAt(positions.size());
   std::vector<std::uint32_t> welded(positions.size());
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
-    welded[i] = firstAt.try_emplace(positionBits(positions[i]), i).first->second;
+    const Corners bits = positionBits(positions[i]);
+    welded[i] = firstAt.firstEqual(
+        bits, i, [&](std::uint32_t other) { return positionBits(positions[other]) == bits; });
   }
   return welded;
 }
@@ -114,8 +134,9 @@ Result<TriangleMesh> buildMesh(const MeshView& view) {
   mesh.positions = std::move(positions).value();
   mesh.weldedVertex = weldByPosition(mesh.positions);
   mesh.indices.reserve(cornerCount);
-  std::unordered_set<Corners, CornersHash> seen;
-  seen.reserve(cornerCount / 3);
+  CornersTable known(cornerCount / 3);
+  std::vector<Corners> kept;  // triangles by welded corners, the smallest first
+  kept.reserve(cornerCount / 3);
   for (std::size_t first = 0; first < cornerCount; first += 3) {
     Corners corners, welded;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -129,11 +150,16 @@ Result<TriangleMesh> buildMesh(const MeshView& view) {
     }
     if (!hasArea(mesh.positions[corners[0]], mesh.positions[corners[1]], mesh.positions[corners[2]])) {
       ++mesh.statistics.degenerateTrianglesDropped;
-    } else if (!seen.insert(rotatedToSmallestFirst(welded)).second) {
-      ++mesh.statistics.duplicateTrianglesDropped;
-    } else {
-      mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
+      continue;
     }
+    const Corners key = rotatedToSmallestFirst(welded);
+    const auto number = static_cast<std::uint32_t>(kept.size());
+    if (known.firstEqual(key, number, [&](std::uint32_t other) { return kept[other] == key; }) != number) {
+      ++mesh.statistics.duplicateTrianglesDropped;
+      continue;
+    }
+    kept.push_back(key);
+    mesh.indices.insert(mesh.indices.end(), corners.begin(), corners.end());
   }
   if (mesh.indices.empty()) {
     return Error{ErrorCode::emptyScene, "the mesh has no triangle with an area; give at least one"};

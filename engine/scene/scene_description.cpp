@@ -17,4 +17,15 @@ Bounds boundsWorld(const SceneDescription& scene, ObjectFilter filter) {
   return bounds;
 }
 
+bool showsBackFaces(const TriangleMesh& mesh, const Material& material) {
+  const bool isClosed = mesh.statistics.closed() && mesh.statistics.nonManifoldEdges == 0;
+  return material.doubleSided || !mesh.turned.empty() || (isClosed && !(material.alphaCutoff > 0.0f));
+}
+
+void releaseColorImages(SceneDescription& scene) {
+  for (SceneObject& object : scene.objects) {
+    if (!(object.material.alphaCutoff > 0.0f)) object.material.baseColorImage = nullptr;
+  }
+}
+
 }  // namespace halfshadow::scene

@@ -40,7 +40,8 @@ struct Material {
   /// Above 0: where the alpha of base colour, image and vertex colour together is less, there is nothing:
   /// nothing is seen there, and no shadow falls from there. 0: all of it is there.
   float alphaCutoff = 0.0f;
-  bool doubleSided = false;
+  /// The camera sees its back faces too (see showsBackFaces). Shadows fall from both sides either way.
+  bool doubleSided = true;
 };
 
 /// One mesh placed in the world. `casts`: it may shadow others; `receives`: visibility is asked on it.
@@ -60,6 +61,14 @@ struct SceneDescription {
   std::vector<AreaLight> lights;   ///< the file's own, or a built-in's defined one
   std::vector<std::string> notes;  ///< warnings while loading, one sentence each
 };
+
+/// Lets go of images that only colour, once an engine has its own copy; those that cut holes stay, for rays.
+void releaseColorImages(SceneDescription& scene);
+
+/// Whether a camera is shown an object's back faces, by its material, and of all that is closed: they are
+/// seen from within alone, as in a house that is modelled from outside. Closed shells that were wound inward
+/// have been turned (see TriangleMesh::turned), and what was a front face there is not told any more.
+bool showsBackFaces(const TriangleMesh& mesh, const Material& material);
 
 enum class ObjectFilter { all, casters, receivers };
 /// World bounds of the objects that pass the filter, exact over their triangles' corners.

@@ -5,6 +5,7 @@
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -149,6 +150,24 @@ Result<FloatImage> readImage(const std::filesystem::path& path) {
   return image;
 }
 
+namespace {
+/// Sides of 16384: more is more than a device holds, and a few bytes may claim it.
+constexpr std::uint64_t kMostPixels = std::uint64_t{1} << 28;
+
+/// Grey, with or without alpha, becomes colours that are alike.
+void spreadGrey(ByteImage& image) {
+  const auto from = static_cast<std::size_t>(image.channels), to = from + 2;
+  std::vector<std::uint8_t> pixels(image.pixels.size() / from * to);
+  const std::uint8_t* source = image.pixels.data();
+  for (auto target = pixels.begin(); target != pixels.end(); source += from) {
+    target = std::fill_n(target, 3, source[0]);
+    if (from == 2) *target++ = source[1];
+  }
+  image.pixels = std::move(pixels);
+  image.channels = static_cast<int>(to);
+}
+}  // namespace
+
 Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* format) {
   configureOnce();
   const auto failed = [format](const std::string& why) {
@@ -169,11 +188,13 @@ Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* fo
   if (!input->open(named ? named->path().string() : std::string("memory.") + format, opened, asStored))
     return failed(input->geterror());
   const OIIO::ImageSpec& spec = input->spec();
-  if (spec.image_pixels() == 0 || spec.nchannels < 3) return failed("it has no colours");
+  if (spec.image_pixels() == 0 || spec.nchannels < 1) return failed("it has no pixels");
+  if (spec.image_pixels() > kMostPixels) return failed("it has more than 16384 x 16384 pixels");
   ByteImage image{.width = spec.width, .height = spec.height, .channels = std::min(spec.nchannels, 4)};
   image.pixels.resize(spec.image_pixels() * static_cast<std::size_t>(image.channels));
   if (!input->read_image(0, 0, 0, image.channels, OIIO::TypeDesc::UINT8, image.pixels.data()))
     return failed(input->geterror());
+  if (image.channels < 3) spreadGrey(image);
   return image;
 }
 

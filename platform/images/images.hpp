@@ -34,7 +34,9 @@ struct ByteImage {
   int width = 0, height = 0, channels = 0;  ///< channels: 3 or 4
   std::vector<std::uint8_t> pixels;
 };
-/// Decodes a file held in memory; `format` is OpenImageIO's name of it, e.g. "webp". Errors: fileMalformed.
+/// Decodes a file held in memory; `format` is OpenImageIO's name of it, e.g. "webp". Grey images are spread
+/// to three channels, 16 bits rounded to 8. May be called on several threads. Errors: fileMalformed (also
+/// above 16384 x 16384 pixels).
 Result<ByteImage> decodeImage(std::span<const std::uint8_t> file, const char* format);
 
 /// Writes 32-bit float OpenEXR (lossless). The image's own channelNames are used; when it has none,

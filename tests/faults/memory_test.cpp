@@ -120,6 +120,36 @@ TEST_F(Memory, MovingLightsLeaveNothing) {
   }
 }
 
+TEST_F(Memory, ObjectsThatShowOneImageShareItsTexture) {
+  const std::unique_ptr<Engine> engine = makeEngine();
+  ASSERT_NE(engine, nullptr);
+  const scene::SceneDescription& scene = builtinScene(kScene);
+  std::vector<std::uint8_t> pixels(64 * 32 * 4);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::uint8_t>(i * 37);
+  ObjectDesc desc = objectDesc(scene.objects[0]);
+  std::vector<ObjectId> ids;
+  const auto texturesAfterAdding = [&] {
+    ids.push_back(0);
+    const Outcome added = engine->addObject(desc, ids.back());
+    EXPECT_TRUE(added.ok()) << added.message;
+    return engine->memory().textures;
+  };
+  const int before = texturesAfterAdding();
+  desc.baseColorPixels = pixels.data(), desc.baseColorWidth = 64, desc.baseColorHeight = 32;
+  EXPECT_EQ(texturesAfterAdding(), before + 1);
+  const std::vector<std::uint8_t> same = pixels;
+  desc.baseColorPixels = same.data();
+  EXPECT_EQ(texturesAfterAdding(), before + 1) << "known by what it holds";
+  desc.alphaCutoff = 0.5f;
+  EXPECT_EQ(texturesAfterAdding(), before + 2) << "its alpha";
+  EXPECT_EQ(texturesAfterAdding(), before + 2);
+  pixels[4 * 1000] ^= 1;
+  desc.baseColorPixels = pixels.data();
+  EXPECT_EQ(texturesAfterAdding(), before + 4) << "another image";
+  for (const ObjectId id : ids) EXPECT_TRUE(engine->removeObject(id).ok());
+  EXPECT_EQ(engine->memory().textures, before) << "the last object takes them along";
+}
+
 TEST_F(Memory, StandstillFreesToo) {
   SceneRenderer renderer(makeEngine());
   renderer.load(builtinScene(kScene));

@@ -133,5 +133,43 @@ TEST(UpAxis, GroundLampAndCameraFollowIt) {
   for (const char* wrong : {"", "w", "0,0,0", "1,2", "up"}) EXPECT_FALSE(parseUp(wrong).ok()) << wrong;
 }
 
+/// One that stands for an orthographic one.
+scene::Camera farAway(const scene::Camera& near) {
+  const glm::dvec3 way = near.targetWorld - near.eyeWorld;
+  scene::Camera camera = near;
+  camera.eyeWorld = near.targetWorld - way * 1000.0;
+  camera.verticalFovRadians = 2e-4;  // narrow enough that all of its sight begins in the room
+  camera.leastNearDistance = 999.0 * glm::length(way);
+  return camera;
+}
+
+TEST(CamerasFarAway, LookPastWhatTheyStandBehind) {
+  const glm::dvec3 half(4, 1.5, 3);
+  const std::vector<scene::SceneObject> objects{box({0, 0, 0}, half), box({0, -1.2, 0}, glm::dvec3(0.3))};
+  const auto camera = farAway({.eyeWorld = {3, 0.2, 2}, .targetWorld = {0, -1, 0}});
+  const auto room = completed(objects, {.camera = camera});
+  ASSERT_EQ(room.lights.size(), 1u);
+  EXPECT_TRUE(glm::all(glm::lessThan(glm::abs(room.lights[0].centerWorld), half)))
+      << "the lamp stands in the room, whose wall is nearer than what is meant to be seen";
+  EXPECT_FALSE(hasAddedGround(room)) << "nor is a ground added around it";
+}
+
+TEST(CamerasFarAway, KeepTheDepthBufferForTheScene) {
+  const auto camera = farAway({.eyeWorld = {0, 5, 8}, .targetWorld = {0, 0, 0}});
+  const auto scene = completed({box({0, 1, 0}, glm::dvec3(1)), casterOf("floor", planeShape({0, 0, 0}, 4.0))},
+                               {.ground = GroundMode::off, .camera = camera});
+  const glm::dmat4 view = scene::viewFromWorld(*scene.camera);
+  double nearest = 1e30, farthest = 0.0;
+  for (const scene::SceneObject& object : scene.objects) {
+    for (const glm::vec3& position : object.mesh->positions) {
+      const double depth = -(view * glm::dvec4(glm::dvec3(position), 1.0)).z;
+      nearest = std::min(nearest, depth), farthest = std::max(farthest, depth);
+    }
+  }
+  EXPECT_LT(scene.camera->nearDistance, nearest);
+  EXPECT_GT(scene.camera->farDistance, farthest);
+  EXPECT_LT(scene.camera->farDistance - scene.camera->nearDistance, 1.2 * (farthest - nearest));
+}
+
 }  // namespace
 }  // namespace halfshadow::scenes

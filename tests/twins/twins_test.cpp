@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/ext/matrix_transform.hpp>
 
 #include "gltf_writer.hpp"
 #include "measure/engine_session.hpp"
@@ -267,7 +268,9 @@ GltfWriter flag(bool byRoot, bool skinned) {
   const float side = byRoot ? 1.0f : -1.0f;
   const std::vector<float> positions{side * .1f, 0, 0, side * .2f, 0, 0,    side * .1f,  2,    0,
                                      side * .2f, 2, 0, side * .2f, 1, 0.1f, side * 1.6f, 1.6f, .4f};
-  const std::vector<std::uint32_t> indices{0, 1, 2, 1, 3, 2, 3, 4, 5};
+  std::vector<std::uint32_t> indices{0, 1, 2, 1, 3, 2, 3, 4, 5};
+  // What a transform mirrors keeps its front.
+  for (std::size_t i = 0; !byRoot && i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
   const int mesh = addMesh(writer, positions, {}, indices, -1);
   Json node = {{"mesh", mesh}};
   if (skinned) {
@@ -292,6 +295,56 @@ GltfWriter flag(bool byRoot, bool skinned) {
 TEST_F(Twins, WhatItsRootMirrorsIsTheMirrorImage) {
   for (const bool skinned : {false, true})
     expectEqual(opened(flag(true, skinned), "root.glb"), opened(flag(false, skinned), "written.glb"));
+}
+
+/// A floor, and over it a card whose front faces down, away from the camera.
+GltfWriter cardFacingDown(bool mirrored, bool isSeen) {
+  GltfWriter writer = onFloor();
+  std::vector<float> positions, texcoords;
+  std::vector<std::uint32_t> indices;
+  addQuad(positions, texcoords, indices, {-1, -1}, {1, 1}, 1.2f);
+  for (std::size_t i = 0; i < indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+  Json node = {{"mesh", addMesh(writer, positions, {}, indices, 0)}};
+  if (mirrored) node["scale"] = {-1, 1, 1};
+  if (!isSeen) node["extras"] = {{"halfshadow", {{"receives", false}}}};
+  writer.json["nodes"].push_back(node);
+  writer.json["materials"] = Json::array({Json::object()});
+  showAll(writer);
+  return writer;
+}
+
+TEST_F(Twins, BackFacesOfSingleSidedCardsCastUnseen) {
+  SceneOptions asInFile = options(), bothSides = options();
+  bothSides.sides = Sides::both;
+  for (const bool mirrored : {false, true}) {
+    const auto card = opened(cardFacingDown(mirrored, true), "card.glb", asInFile);
+    ASSERT_EQ(card.objects.size(), 2u);
+    EXPECT_FALSE(scene::showsBackFaces(*card.objects[1].mesh, card.objects[1].material));
+    const auto hidden = opened(cardFacingDown(mirrored, false), "hidden.glb", asInFile);
+    const auto both = opened(cardFacingDown(mirrored, true), "both.glb", bothSides);
+    for (const char* technique :
+         {"hard", "pcss-mip", "wedges", "wedges-blended", "wedges-cells", "shadow-volume"}) {
+      const auto unseen = visibility(card, technique);
+      EXPECT_LT(difference(unseen, visibility(hidden, technique)).shareOverEight, 0.003) << technique;
+      EXPECT_GT(difference(unseen, visibility(both, technique)).shareOverEight, 0.02) << technique;
+      EXPECT_GT(difference(unseen, unseen).shadow, 1.0) << technique << ": it casts";
+    }
+    // Rays see the floor through it, and its shadow there.
+    const auto seen = reference::traceReceivers(card, *card.camera, card.lights.front(), kWidth, kHeight);
+    ASSERT_TRUE(seen.ok());
+    for (const glm::dvec3& place : seen->positionWorld) EXPECT_LT(std::abs(place.y), 1e-6);
+    const std::vector<float> traced = truth(card);
+    EXPECT_GT(std::ranges::count(traced, 0.0f), 100);
+    // Where an engine's host mirrors, and not the file.
+    scene::SceneDescription turned = card;
+    turned.objects[1].worldFromObject =
+        glm::scale(glm::dmat4(1.0), glm::dvec3(-1, 1, 1)) * turned.objects[1].worldFromObject;
+    EXPECT_LT(difference(visibility(turned, "hard"), visibility(card, "hard")).shareOverEight, 0.003);
+    const auto turnedSeen =
+        reference::traceReceivers(turned, *turned.camera, turned.lights.front(), kWidth, kHeight);
+    ASSERT_TRUE(turnedSeen.ok());
+    EXPECT_EQ(turnedSeen->kind, seen->kind);
+  }
 }
 
 TEST_F(Twins, ASunsShadowsAreParallel) {

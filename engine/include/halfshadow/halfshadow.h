@@ -68,6 +68,7 @@ typedef struct HalfshadowObjectDesc {
   const uint8_t* base_color_pixels; /* sRGB, base_color_channels (3 or 4) a pixel, top row first, or null */
   int base_color_width, base_color_height, base_color_channels; /* channels 0 = 4 */
   float alpha_cutoff; /* above 0: nothing is there where alpha is less */
+  int single_sided;   /* 1: back faces of open meshes are not drawn; shadows fall from both sides */
 } HalfshadowObjectDesc;
 
 typedef struct HalfshadowLightDesc {

@@ -79,6 +79,11 @@ struct ObjectDesc {
   /// is not drawn, and casts no shadow. Shadow volumes and wedges take the outline of the whole mesh: their
   /// frames' reports say so. 0: all of it is there, and alpha means nothing. Not above 1.
   float alphaCutoff = 0.0f;
+  /// The camera is not shown its back faces: those that it sees wound clockwise, with worldFromObject as it
+  /// is, counter-clockwise where that mirrors. Closed meshes without holes show theirs all the same, to a
+  /// camera inside, and so do meshes with closed parts wound inward, which are turned when added. Shadows
+  /// fall from both sides.
+  bool singleSided = false;
 };
 using ObjectId = std::uint32_t;
 

@@ -14,6 +14,11 @@ device::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, doubl
   return item.mirrored ? device::Cull::front : device::Cull::back;
 }
 
+device::Cull unseenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach) {
+  if (!item.frontOnly) return hiddenFaces(item, eyeWorld, nearReach);
+  return item.mirrored ? device::Cull::front : device::Cull::back;
+}
+
 bool needsFacetStream(const device::Capabilities& capabilities) {
   return !capabilities.has(device::Capability::derivatives) || !capabilities.has(device::Capability::highp);
 }

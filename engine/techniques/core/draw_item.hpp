@@ -39,6 +39,7 @@ struct DrawItem {
   bool vertexColors = false;
   scene::Bounds boundsWorld;
   bool closed = false;       ///< no boundary edges: from outside only front faces are seen
+  bool frontOnly = false;    ///< the camera is not shown its back faces
   float solidity = 1.0f;     ///< of casters, see scene::solidity()
   bool mirrored = false;     ///< the transform turns the winding round
   bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
@@ -53,6 +54,8 @@ struct DrawItem {
 /// `nearReach`, so that no near plane opens them. Halves rasterisation, which is most of the cost of dense
 /// meshes.
 device::Cull hiddenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach = 0.0);
+/// The same for the camera, and the back faces of what has its front seen alone. Maps take both sides.
+device::Cull unseenFaces(const DrawItem& item, const glm::dvec3& eyeWorld, double nearReach);
 
 /// True where receivers need facet normals as a vertex attribute: no derivatives, or none precise enough.
 bool needsFacetStream(const device::Capabilities& capabilities);

@@ -33,8 +33,8 @@ struct MeshDraw {
   /// Faces left out, of those that hiddenFaces() tells of `eyeWorld`.
   enum class Faces {
     all,     ///< none is left out
-    facing,  ///< the hidden ones are
-    turned,  ///< the same in a space that looks along +z of a right-handed one, as maps do
+    facing,  ///< by the camera: those that unseenFaces() tells are
+    turned,  ///< the hidden ones are, in a space that looks along +z of a right-handed one, as maps do
     averted  ///< those that are seen are left out; in such a space
   } faces = Faces::all;
   glm::dvec3 eyeWorld{0.0};

@@ -51,6 +51,7 @@ bool usesAlike(const PlannedDraw& a, const PlannedDraw& b) {
 
 gl::Cull culledFaces(const MeshDraw& meshes, const DrawItem& item) {
   if (meshes.faces == MeshDraw::Faces::all) return gl::Cull::none;
+  if (meshes.faces == MeshDraw::Faces::facing) return unseenFaces(item, meshes.eyeWorld, meshes.nearReach);
   const gl::Cull hidden = hiddenFaces(item, meshes.eyeWorld, meshes.nearReach);
   return meshes.faces == MeshDraw::Faces::turned ? turnedRound(hidden) : hidden;
 }

@@ -245,7 +245,7 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
     }
     if (kind.cut) bindAlphaMask(encoder, *program, item);
     setObjectUniforms(encoder.context(), *program, shading, view, item, kind.facets, inputs, ofItem);
-    state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
+    state.cull = unseenFaces(item, view.eyeWorld, view.nearReach);
     item.mesh->draw(encoder, state,
                     kind.facets ? GpuMesh::Streams::facet
                     : inputs    ? GpuMesh::Streams::shading

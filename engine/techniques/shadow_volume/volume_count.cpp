@@ -216,7 +216,7 @@ LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeV
   const std::span<const scene::PlacedCaster> casters = placedCasters(scene);
   std::vector<bool> drawn(casters.size(), true);
   for (const DrawItem& item : scene.casters) {
-    if (!item.receives) drawn[placedCasterOf(scene, item)] = false;
+    if (!item.receives || item.frontOnly) drawn[placedCasterOf(scene, item)] = false;
   }
   for (const scene::PlacedCaster& caster : casters) {
     scene::Bounds bounds;

@@ -245,7 +245,7 @@ void addReceiverWedges(const LightScene& scene, PassPlan& plan, PlannedPass& pas
     uniforms.set("u_clipFromObject", glm::mat4(how.clipFromWorld * item.worldFromObject));
     uniforms.set("u_lightFromObject", glm::mat4(anchorFromWorld * item.worldFromObject));
     planned.state.depth = {.test = device::Compare::lequal};
-    planned.state.cull = hiddenFaces(item, view.eyeWorld, view.nearReach);
+    planned.state.cull = unseenFaces(item, view.eyeWorld, view.nearReach);
     planned.state.blend = how.blend;
     if (cut) {
       const auto [known, added] = buffers.try_emplace(item.object, 0u);
