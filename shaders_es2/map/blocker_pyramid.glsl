@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Mean gap to the casters over a region of the map, from an atlas of levels of cells that hold an occupied share and
-// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl and
-// penumbra_bounds.glsl.
+// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl,
+// spread_places.glsl and penumbra_bounds.glsl.
 //
 // Cells are weighed here, not by the sampler: filters of 8 bits leave no depth to tell widths by, and a cell
 // beyond the receiver blocks nothing.
@@ -67,13 +67,20 @@ HS_HIGHP vec2 hs_blockersAround(HS_HIGHP vec2 widthTexels) {
   HS_HIGHP float cellsWide = width * u_pyramidLayout.x * u_pyramidLayout.z;
   HS_HIGHP float level = clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
   HS_HIGHP float lower = floor(level);
+  HS_HIGHP float between = level - lower;
+  HS_HIGHP vec2 texel = hs_texel - 0.5 * along;
+  HS_HIGHP vec2 stride = along / max(strides, 1.0);
   HS_HIGHP vec2 sum = vec2(0.0);
-  for (int i = 0; i < 5; ++i) {
-    if (float(i) > strides) break;
-    HS_HIGHP vec2 texel = hs_texel + along * (float(i) / max(strides, 1.0) - 0.5);
-    HS_HIGHP vec2 around = hs_cellsAround(texel, lower);
-    if (level > lower) around = mix(around, hs_cellsAround(texel, lower + 1.0), level - lower);
-    sum += around;
+  // A level a turn, the finer one first: programs are half as long. Their number is one that compilers do not know.
+  HS_HIGHP float left = strides;
+  HS_HIGHP float coarser = 0.0;
+  for (int i = 0; i < HS_MOST_TURNS; ++i) {
+    if (left < -0.5) break;
+    HS_HIGHP float share = coarser > 0.5 ? between : 1.0 - between;
+    if (share > 0.0) sum += share * hs_cellsAround(texel, lower + coarser);
+    texel += coarser * stride;
+    left -= coarser;
+    coarser = 1.0 - coarser;
   }
   return sum / (strides + 1.0);
 }

@@ -26,14 +26,15 @@ float hs_pcfGrid() {
     lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
     lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
 #else
-  HS_HIGHP float least = -bias;
-  HS_HIGHP float plane = planeFirst - bias;
+  // The receiver's depth is added to what texels are compared with, once, not taken from each of them.
+  HS_HIGHP float least = hs_receiver - bias;
+  HS_HIGHP float plane = planeFirst + least;
   for (int y = 0; y < 4; ++y) {
     HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
-    lit += step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver));
-    lit += step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
-    lit += step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
-    lit += step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+    lit += step(min(plane, least), hs_depthValue(texture2D(u_depthMap, uv)));
+    lit += step(min(next.x, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0))));
+    lit += step(min(next.y, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0))));
+    lit += step(min(next.z, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
 #endif
     HS_COUNT(4);
     uv.y += u_map.y;

@@ -86,7 +86,55 @@ HS_HIGHP float hs_edgeIntegrals(HS_HIGHP vec4 xa, HS_HIGHP vec4 ya, HS_HIGHP vec
   return dot(mean, clampedB - clampedA);
 }
 
-#ifdef HS_WEDGE_CLIP
+#if defined(HS_WEDGE_CLIP) && defined(HS_WEDGE_CHAIN)
+// For devices that have no room for the whole polygon: points that stay, in order, two vertices at a time: the point
+// where an edge passes `near`, then its end. What is cut away repeats the point before; edges count once there is one,
+// and the last point is joined to the first.
+struct HS_Chain {
+  HS_HIGHP vec2 first, last;
+  HS_HIGHP float begun;
+};
+// v: (x, y, w) of a vertex.
+HS_HIGHP float hs_nextTwo(inout HS_Chain chain, HS_HIGHP vec3 before, HS_HIGHP vec3 a, HS_HIGHP vec3 b, HS_HIGHP vec2 foot,
+                          HS_HIGHP float scale, HS_HIGHP float near) {
+  HS_HIGHP vec3 inside = step(near, vec3(before.z, a.z, b.z));
+  HS_HIGHP vec2 cut = abs(inside.yz - inside.xy);
+  HS_HIGHP vec2 t = (near - vec2(before.z, a.z)) / (vec2(1.0) - cut + vec2(a.z - before.z, b.z - a.z) * cut);
+  HS_HIGHP vec2 cutA = mix(before.xy, a.xy, t.x), cutB = mix(a.xy, b.xy, t.y);
+  HS_HIGHP vec4 x = vec4(cutA.x, a.x, cutB.x, b.x), y = vec4(cutA.y, a.y, cutB.y, b.y);
+  hs_project(x, y, vec4(near, a.z, near, b.z), foot, scale, near);
+  HS_HIGHP vec4 kept = vec4(cut.x, inside.y, cut.y, inside.z);
+  // No edge leads to the first point that stays: until then all are where it will be.
+  HS_HIGHP vec2 point = kept.z > 0.5 ? vec2(x.z, y.z) : vec2(x.w, y.w);
+  point = kept.y > 0.5 ? vec2(x.y, y.y) : point;
+  point = kept.x > 0.5 ? vec2(x.x, y.x) : point;
+  HS_HIGHP vec2 from = chain.begun > 0.5 ? chain.last : point;
+  if (chain.begun < 0.5) chain.first = point;
+  HS_HIGHP vec2 p0 = kept.x > 0.5 ? vec2(x.x, y.x) : from;
+  HS_HIGHP vec2 p1 = kept.y > 0.5 ? vec2(x.y, y.y) : p0;
+  HS_HIGHP vec2 p2 = kept.z > 0.5 ? vec2(x.z, y.z) : p1;
+  chain.last = kept.w > 0.5 ? vec2(x.w, y.w) : p2;
+  chain.begun = max(chain.begun, min(dot(kept, vec4(1.0)), 1.0));
+  return hs_edgeIntegrals(vec4(from.x, p0.x, p1.x, p2.x), vec4(from.y, p0.y, p1.y, p2.y),
+                          vec4(p0.x, p1.x, p2.x, chain.last.x), vec4(p0.y, p1.y, p2.y, chain.last.y));
+}
+// x, y: vertices as hs_project() takes them.
+HS_HIGHP float hs_polygonIntegral(HS_HIGHP vec4 x0, HS_HIGHP vec4 x1, HS_HIGHP vec4 y0, HS_HIGHP vec4 y1,
+                                  HS_HIGHP vec4 w0, HS_HIGHP vec4 w1, HS_HIGHP vec2 foot, HS_HIGHP float scale,
+                                  HS_HIGHP float near) {
+  HS_Chain chain;
+  chain.first = chain.last = vec2(0.0);
+  chain.begun = 0.0;
+  HS_HIGHP vec3 v1 = vec3(x0.y, y0.y, w0.y), v3 = vec3(x0.w, y0.w, w0.w);
+  HS_HIGHP vec3 v5 = vec3(x1.y, y1.y, w1.y), v7 = vec3(x1.w, y1.w, w1.w);
+  HS_HIGHP float sum = hs_nextTwo(chain, v7, vec3(x0.x, y0.x, w0.x), v1, foot, scale, near);
+  sum += hs_nextTwo(chain, v1, vec3(x0.z, y0.z, w0.z), v3, foot, scale, near);
+  sum += hs_nextTwo(chain, v3, vec3(x1.x, y1.x, w1.x), v5, foot, scale, near);
+  sum += hs_nextTwo(chain, v5, vec3(x1.z, y1.z, w1.z), v7, foot, scale, near);
+  // One edge, four times.
+  return sum + 0.25 * hs_edgeIntegrals(vec4(chain.last.x), vec4(chain.last.y), vec4(chain.first.x), vec4(chain.first.y));
+}
+#elif defined(HS_WEDGE_CLIP)
 // Vertices and the points where edges pass `near`, in order; what is cut away becomes a copy of its
 // neighbour, so that a chord closes the rest.
 HS_HIGHP vec2 hs_keep(HS_HIGHP vec2 last, HS_HIGHP vec2 point, HS_HIGHP float kept) {

@@ -52,6 +52,12 @@ std::vector<WedgeGroup> wholeThenBatches(const outlines::WedgePieces& pieces) {
   return groups;
 }
 
+std::vector<Fallback> wedgeFallbacks() {
+  return {shadedApart(),
+          shadedApart({{"program_size", "short"}}, "pieces that receivers cut two vertices at a time"),
+          {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+}
+
 /// Among casters that were taken together what they cover as one says nothing.
 OwnSurfaces listedSurfaces(const WedgeVolumes& volumes) {
   return volumes.takenTogether ? OwnSurfaces::all : OwnSurfaces::hollow;
@@ -155,9 +161,7 @@ class AdditiveWedges final : public Technique {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
-  std::vector<Fallback> fallbacks() const override {
-    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
-  }
+  std::vector<Fallback> fallbacks() const override { return wedgeFallbacks(); }
   std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
@@ -181,9 +185,7 @@ class ProbabilisticWedges final : public Technique {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
-  std::vector<Fallback> fallbacks() const override {
-    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
-  }
+  std::vector<Fallback> fallbacks() const override { return wedgeFallbacks(); }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<ProbabilisticPlanner>();
   }
