@@ -9,7 +9,8 @@ PATH: the program mobile_programs (default: build/bin/mobile_programs beside thi
 which compilers of these GPUs were built from Mesa under its drm-shim, with compile_on_gpus.py in it (default: the
 environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings are compiled;
 those that its driver would leave out are left out under the engine as well, whose fallbacks are then compiled, until
-nothing is dropped. Prints counts per technique and path, and checks them against limits.json beside this file.
+nothing is dropped. Prints counts per technique and path, and of some programs with loops what
+a fragment executes, and checks them against limits.json beside this file.
 FILE: gets the counts as JSON. Counts are compiled, not measured: nothing is drawn on a GPU.
 Exit status: 0 within the limits, 1 beyond, 77 without compilers."""
 import argparse
@@ -134,6 +135,59 @@ def violations(gpu, limits):
                 beyond = value < limit if name == "threads" else value > limit
                 if beyond:
                     found.append(f"{gpu.name}: {label}: {value} {name}, the limit is {limit}")
+    for rule in limits["executed"]:
+        if gpu.name not in rule["limits"]:
+            continue
+        counts = executed(gpu, rule)
+        if not counts:
+            found.append(f"{gpu.name}: no program is {rule['match']}")
+        for label, count in counts.items():
+            print(f"{gpu.name}: {label}: {count} executed")
+            if count > rule["limits"][gpu.name]:
+                found.append(f"{gpu.name}: {label}: {count} executed, the limit is {rule['limits'][gpu.name]}")
+    return found
+
+
+def repeated(text, function, times):
+    """The program with the body of a function's first loop written so many times."""
+    head = re.search(r"^[A-Za-z][^\n;]*\b" + function + r"\([^;{]*\{", text, re.M)
+    # Where the preprocessor chooses among headers, the body follows the last.
+    header = re.compile(r"for \((?:HS_HIGHP )?int \w+ = 0; [^{]*\{\n(?:#else\n *for [^{]*\{\n#endif\n)?")
+    begin = end = header.search(text, head.end()).end()
+    depth = 1
+    while depth > 0:
+        depth += {"{": 1, "}": -1}.get(text[end], 0)
+        end += 1
+    body = "{" + text[begin:end - 1] + "}\n"
+    return text[:begin] + times * body + text[end - 1:]
+
+
+def turn_size(gpu, line, function):
+    """What one turn of a loop takes: of three in a row, half of what two more than one take."""
+    sizes = []
+    worker = gpu.tools.Worker(gpu.name)
+    for times in (1, 3):
+        path = os.path.join(gpu.folder, f"repeated{times}.frag")
+        with open(line[2]) as source, open(path, "w") as file:
+            file.write(repeated(source.read(), function, times))
+        status, output = worker.run(f"repeated{times}", line[1], path, line[3])
+        sizes.append(gpu.tools.parse(gpu.name, status, output)["fs"]["i"])
+    worker.close()
+    return (sizes[1] - sizes[0]) // 2
+
+
+def executed(gpu, rule):
+    """What a fragment runs, by label. Counts have one turn of each loop; turns of a loop inside another one are those beyond
+    one for each turn of that, and one."""
+    found = {}
+    for identifier, line in gpu.programs.items():
+        label = gpu.label(identifier)
+        if identifier in gpu.dropped or not re.search(rule["match"], label) or re.search(rule.get("but", "^$"), label):
+            continue
+        total = gpu.results[identifier]["fs"]["i"]
+        for function, turns in rule["turns"].items():
+            total += (turns - 1) * turn_size(gpu, line, function)
+        found[label] = total
     return found
 
 
