@@ -12,12 +12,10 @@ uniform HS_HIGHP vec4 u_pyramidLayout;
 // x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
 
-// What one cell, whose centre is at uv, says. x: share of it that lies nearer, y: share times gap.
+// The cell whose centre is at uv, see hs_unpackOccupancy().
 HS_HIGHP vec2 hs_cell(HS_HIGHP vec2 uv) {
-  HS_HIGHP vec2 stored = hs_unpackOccupancy(texture2D(u_pyramid, uv));
   HS_COUNT(1);
-  HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
-  return stored.x * step(0.0, gap) * vec2(1.0, gap);
+  return hs_unpackOccupancy(texture2D(u_pyramid, uv));
 }
 
 // Texel of the atlas at which a level's cells begin.
@@ -49,9 +47,12 @@ HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
   HS_HIGHP vec2 pitch = hs_cellPitch();
   HS_HIGHP vec2 uv = (hs_levelOrigin(level, side) + first + 0.5) * pitch;
   HS_HIGHP vec2 uvNext = uv + pitch;
-  HS_HIGHP vec2 sum = near.y * (near.x * hs_cell(uv) + next.x * hs_cell(vec2(uvNext.x, uv.y))) +
-                      next.y * (near.x * hs_cell(vec2(uv.x, uvNext.y)) + next.x * hs_cell(uvNext));
-  return sum * (1.0 / 255.0);
+  HS_HIGHP vec2 a = hs_cell(uv), b = hs_cell(vec2(uvNext.x, uv.y)), c = hs_cell(vec2(uv.x, uvNext.y)), d = hs_cell(uvNext);
+  // x: share of it that lies nearer, y: share times gap; what lies beyond the receiver blocks nothing.
+  HS_HIGHP vec4 gap = hs_receiverValue - u_pyramidRange.x - u_pyramidRange.y * vec4(a.y, b.y, c.y, d.y);
+  HS_HIGHP vec4 share = vec4(a.x, b.x, c.x, d.x) * step(vec4(0.0), gap) * vec4(near.x, next.x, near.x, next.x) *
+                        vec4(near.yy, next.yy);
+  return vec2(dot(share, vec4(1.0)), dot(share, gap)) * (1.0 / 255.0);
 }
 
 // The same over about widthTexels of the depth map, between two levels: changes evenly with the width. A region much

@@ -11,13 +11,13 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   hs_beginTaps(max(asked, vec2(1.0)), u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y)));
   HS_HIGHP vec2 found = vec2(0.0);
 #ifdef HS_SHORT
-  HS_HIGHP float count = places.turns;
+  HS_HIGHP float count = places.turns + 0.5;
 #else
   HS_HIGHP float count = side * side;
   if (places.center > 0.5) found = hs_blockingTap(vec2(0.0), 0.0);
 #endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
-    if (places.turns < 0.5) break;
+    if (float(i) > places.turns) break;
 #ifdef HS_SHORT
     found += hs_blockingTap(places.place * hs_tapScale, dot(hs_tapGradient, places.place));
 #else

@@ -9,13 +9,13 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
   hs_beginTaps(width, bias);
   float lit = 0.0;
 #ifdef HS_SHORT
-  HS_HIGHP float count = places.turns;
+  HS_HIGHP float count = places.turns + 0.5;
 #else
   HS_HIGHP float count = side * side;
   if (places.center > 0.5) lit = hs_litTap(vec2(0.0), 0.0);
 #endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
-    if (places.turns < 0.5) break;
+    if (float(i) > places.turns) break;
 #ifdef HS_SHORT
     lit += hs_litTap(places.place * hs_tapScale, dot(hs_tapGradient, places.place));
 #else

@@ -162,32 +162,44 @@ def repeated(text, function, times):
     return text[:begin] + times * body + text[end - 1:]
 
 
-def turn_size(gpu, line, function):
-    """What one turn of a loop takes: of three in a row, half of what two more than one take."""
-    sizes = []
-    worker = gpu.tools.Worker(gpu.name)
-    for times in (1, 3):
-        path = os.path.join(gpu.folder, f"repeated{times}.frag")
-        with open(line[2]) as source, open(path, "w") as file:
-            file.write(repeated(source.read(), function, times))
-        status, output = worker.run(f"repeated{times}", line[1], path, line[3])
-        sizes.append(gpu.tools.parse(gpu.name, status, output)["fs"]["i"])
-    worker.close()
-    return (sizes[1] - sizes[0]) // 2
+class Sizes:
+    """Of programs that are no others than a GPU's own with some lines written again."""
+
+    def __init__(self, gpu, folder):
+        self.gpu, self.folder = gpu, folder
+        self.worker = gpu.tools.Worker(gpu.name)
+
+    def of(self, line, text):
+        path = os.path.join(self.folder, "repeated.frag")
+        with open(path, "w") as file:
+            file.write(text)
+        status, output = self.worker.run("repeated", line[1], path, line[3])
+        result = self.gpu.tools.parse(self.gpu.name, status, output)
+        return result["fs"]["i"] if result["status"] == "ok" else float("inf")
+
+    def executed(self, line, turns):
+        """Counts have one turn of each loop; a turn takes half of what three in a row take more than one."""
+        with open(line[2]) as source:
+            text = source.read()
+        total = self.of(line, text)
+        for function, count in turns.items():
+            total += (count - 1) * (self.of(line, repeated(text, function, 3)) - self.of(line, text)) // 2
+        return total
 
 
 def executed(gpu, rule):
-    """What a fragment runs, by label. Counts have one turn of each loop; turns of a loop inside another one are those beyond
-    one for each turn of that, and one."""
+    """What a fragment runs, by label."""
+    folder = os.path.join(gpu.folder, "executed")
+    subprocess.run([gpu.options.programs, folder, gpu.rung, "--scenes", rule["scene"]] + rule["settings"], check=True,
+                   stderr=subprocess.DEVNULL)
+    sizes = Sizes(gpu, folder)
     found = {}
-    for identifier, line in gpu.programs.items():
-        label = gpu.label(identifier)
-        if identifier in gpu.dropped or not re.search(rule["match"], label) or re.search(rule.get("but", "^$"), label):
-            continue
-        total = gpu.results[identifier]["fs"]["i"]
-        for function, turns in rule["turns"].items():
-            total += (turns - 1) * turn_size(gpu, line, function)
-        found[label] = total
+    with open(os.path.join(folder, "programs.tsv")) as file:
+        for line in (text.rstrip("\n").split("\t") for text in file):
+            label = " ".join(line[5].split()) + " " + line[3]
+            if re.search(rule["match"], label) and not re.search(rule["but"], label):
+                found[label] = sizes.executed(line, rule["turns"])
+    sizes.worker.close()
     return found
 
 
