@@ -97,7 +97,7 @@ class WedgesBlended final : public Technique {
   std::vector<Fallback> fallbacks() const override {
     return {shadedApart(),
             shadedApart({{"wedges-blended.cog", "off"}, {"program_size", "short"}},
-                        "no centres of gravity, pieces that receivers cut two vertices at a time"),
+                        "no centres of gravity, pieces that receivers cut a vertex at a time"),
             shadedApart({{"wedges-blended.cog", "off"}, {"program_size", "parts"}},
                         "no centres of gravity, two quadrants a draw"),
             {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
