@@ -230,6 +230,13 @@ def table(gpus):
     return {key: {name: cell for name, (_, cell) in cells.items()} for key, cells in rows.items()}
 
 
+def text_of(document):
+    """JSON with a line for each row of the table."""
+    rows = ",\n".join("  " + json.dumps(row) for row in document["counts"])
+    others = json.dumps(document | {"counts": []}, indent=1)
+    return others.replace('"counts": []', '"counts": [\n' + rows + "\n ]", 1) + "\n"
+
+
 def main():
     options = arguments()
     if not os.path.exists(os.path.join(options.compilers, "ready")):
@@ -259,12 +266,11 @@ def main():
             print(f"{name}: {technique} -> {'; '.join(steps)}")
     if options.write:
         with open(options.write, "w") as file:
-            json.dump({"note": NOTE,
-                       "columns": [{"gpu": name, "title": TITLES.get(name, name)} for name in names],
-                       "counts": [{"technique": t, "path": p, "receivers": r or "all others", "counts": cells}
-                                  for (t, p, r), cells in sorted(rows.items())],
-                       "fallbacks": taken}, file, indent=1)
-            file.write("\n")
+            file.write(text_of({"note": NOTE,
+                                "columns": [{"gpu": name, "title": TITLES.get(name, name)} for name in names],
+                                "counts": [{"technique": t, "path": p, "receivers": r or "all others", "counts": cells}
+                                           for (t, p, r), cells in sorted(rows.items())],
+                                "fallbacks": taken}))
     for line in wrong:
         print("beyond the limits: " + line)
     return 1 if wrong else 0
