@@ -84,8 +84,8 @@ Status Engine::State::declareReceiverPasses(Frame& frame) {
   }
   frame.color = targets.front().resource;
   frame.graph.markOutput(frame.color);
-  for (const scene::AreaLight& light : lights) frame.shadingInputs.lights.push_back(&light);
-  frame.shadingInputs.scale = techniques::shadingScale(lights.front(), frame.receivers);
+  frame.shadingInputs = techniques::shadingInputs(lights, frame.shading == api::Shading::apart,
+                                                  frame.receivers, context->capabilities());
   if (desc.output != Output::shaded || frame.shading == api::Shading::together) {
     declareVisibilityPass(frame, std::move(targets));
     return {};
@@ -94,7 +94,8 @@ Status Engine::State::declareReceiverPasses(Frame& frame) {
                                           framegraph::Lifetime::transient, clearColor(1, 1, 1, 1));
   frame.screenShading = techniques::shadeFromScreen(visibilityTargets.front().resource);
   auto linked = techniques::receiverPrograms(*programs, frame.screenShading,
-                                             techniques::ReceiverOutput::shaded, frame.receivers);
+                                             {.output = techniques::ReceiverOutput::shaded, .lights = lights},
+                                             frame.receivers);
   if (!linked) return linked.error();
   frame.screenPrograms = *linked;
   declareVisibilityPass(frame, std::move(visibilityTargets));

@@ -112,7 +112,6 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   }
   auto choice = choiceFor(frame, index, *used);
   if (!choice) return choice.error();
-  used = choice->technique;
   // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
   shadowless.clear();
   auto caster = plan.casters.begin();  // in the order of objects
@@ -126,49 +125,21 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   double receiverFarDistance = receiverReach(cache, sceneKey);
   if (frame.desc.receivers == Receivers::unknown)
     receiverFarDistance = std::max(receiverFarDistance, 4.0 * cache.fit.farthestCaster);
-  std::string splitReason;
-  const planner::SubLights* subLights = cache.split.update({.light = cache.light,
-                                                            .fit = cache.fit,
-                                                            .casters = cache.casterShapes.values(),
-                                                            .receiverFarDistance = receiverFarDistance,
-                                                            .contentKey = plan.contentKey},
-                                                           *used, *choice->settings, splitReason);
-  if (!splitReason.empty()) frame.graph.noteSkipped(nameOf(index) + " sub-lights", splitReason);
-  const techniques::LightScene scene{.capabilities = context->capabilities(),
-                                     .settings = *choice->settings,
-                                     .screen = frame.view,
-                                     .channel = static_cast<int>(index),
-                                     .name = nameOf(index),
-                                     .light = cache.light,
-                                     .center = {.fit = cache.fit,
-                                                .casters = cache.casters.values(),
-                                                .contentKey = plan.contentKey,
-                                                .sceneKey = sceneKey},
-                                     .subLights = subLights,
-                                     .casterShapes = cache.casterShapes.values(),
-                                     .receiverFarDistance = receiverFarDistance,
-                                     .casters = cache.casters.values(),
-                                     .groups = cache.groups,
-                                     .receivers = frame.receivers,
-                                     .shadowlessReceivers = cache.shadowlessReceivers.values(),
-                                     .contentKey = plan.contentKey,
-                                     .sceneKey = sceneKey};
+  const LightRequest request{index, plan.contentKey, sceneKey, receiverFarDistance, plan.casters};
   const bool hostEvaluates = frame.desc.output == Output::lightsOnly;
-  if (const auto standIn = used->standIn(scene)) {
+  if (const auto standIn = choice->technique->standIn(sceneFor(frame, request, *choice).scene)) {
     const std::string outcome = hostEvaluates ? "; kept, since " + standIn->id + " works on the screen only"
                                               : "; " + standIn->id + " takes the light";
-    frame.graph.noteSkipped(nameOf(index) + " " + used->info().id, standIn->reason + outcome);
-    if (!hostEvaluates) {
-      choice = choiceFor(frame, index, *techniqueNamed(standIn->id));
-      if (!choice) return choice.error();
-      used = choice->technique;
-    }
+    frame.graph.noteSkipped(nameOf(index) + " " + choice->technique->info().id, standIn->reason + outcome);
+    if (!hostEvaluates) choice = choiceFor(frame, index, *techniqueNamed(standIn->id));
+    if (!choice) return choice.error();
   }
+  choice = prepared(frame, request, std::move(choice).value());
+  if (!choice) return choice.error();
   if (choice->settings->choice("shading") == "apart") frame.shading = api::Shading::apart;
-  auto prepared = preparedTechnique(frame, index, *used, scene, plan.casters);
-  if (!prepared) return prepared.error();
-  target.technique = *prepared;
-  if ((*prepared)->info().takesOutlines) noteHoles(frame, index, (*prepared)->info().id, scene.casters);
+  target.technique = choice->technique;
+  const techniques::TechniqueInfo& info = target.technique->info();
+  if (info.takesOutlines) noteHoles(frame, index, info.id, cache.casters.values());
   auto shading = shadingOf(passes, index);
   if (!shading) return shading.error();
   target.shading = std::move(shading).value();
@@ -178,8 +149,10 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     for (const auto resource : techniques::resourcesRead(target.shading)) frame.graph.markOutput(resource);
     return {};
   }
-  auto linked = techniques::receiverPrograms(*programs, target.shading,
-                                             api::receiverOutput(frame.desc, frame.shading), frame.receivers);
+  const techniques::ReceiverRequest programsAsked{.output = api::receiverOutput(frame.desc, frame.shading),
+                                                  .lights = {&lights[index], 1},
+                                                  .depthIsComplete = index > 0};
+  auto linked = techniques::receiverPrograms(*programs, target.shading, programsAsked, frame.receivers);
   if (!linked) return linked.error();
   target.programs = *linked;
   return {};
@@ -192,41 +165,77 @@ double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) c
   return cache.receiverFarDistance;
 }
 
-Status Engine::State::prepareLight(LightCache& cache, techniques::Technique& used,
-                                   const techniques::LightScene& scene) {
-  if (cache.passesOf != &used) {
-    cache.passesOf = &used;
-    cache.passes = std::make_unique<techniques::LightPasses>(used.newPlanner());
-  }
-  return cache.passes->prepare(scene);
+SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& request,
+                                   const api::LightFallbacks::Choice& choice) {
+  LightCache& cache = cacheOf(request.light);
+  std::string splitReason;
+  const planner::SubLights* subLights =
+      cache.split.update({.light = cache.light,
+                          .fit = cache.fit,
+                          .casters = cache.casterShapes.values(),
+                          .receiverFarDistance = request.receiverFarDistance,
+                          .contentKey = request.contentKey},
+                         *choice.technique, *choice.settings, splitReason);
+  return {{.capabilities = context->capabilities(),
+           .settings = *choice.settings,
+           .screen = frame.view,
+           .channel = static_cast<int>(request.light),
+           .name = nameOf(request.light),
+           .light = cache.light,
+           .center = {.fit = cache.fit,
+                      .casters = cache.casters.values(),
+                      .contentKey = request.contentKey,
+                      .sceneKey = request.sceneKey},
+           .subLights = subLights,
+           .casterShapes = cache.casterShapes.values(),
+           .receiverFarDistance = request.receiverFarDistance,
+           .casters = cache.casters.values(),
+           .groups = cache.groups,
+           .receivers = frame.receivers,
+           .shadowlessReceivers = cache.shadowlessReceivers.values(),
+           .contentKey = request.contentKey,
+           .sceneKey = request.sceneKey},
+          std::move(splitReason)};
 }
 
-Result<techniques::Technique*> Engine::State::preparedTechnique(Frame& frame, std::size_t index,
-                                                                techniques::Technique& asked,
-                                                                const techniques::LightScene& scene,
-                                                                std::span<const std::uint32_t> casters) {
-  LightCache& cache = cacheOf(index);
+Status Engine::State::prepareLight(Frame& frame, const LightRequest& request,
+                                   const api::LightFallbacks::Choice& choice) {
+  LightCache& cache = cacheOf(request.light);
+  const SplitScene split = sceneFor(frame, request, choice);
+  if (!split.reason.empty()) frame.graph.noteSkipped(nameOf(request.light) + " sub-lights", split.reason);
+  if (cache.passesOf != choice.technique) {
+    cache.passesOf = choice.technique;
+    cache.passes = std::make_unique<techniques::LightPasses>(choice.technique->newPlanner());
+  }
+  return cache.passes->prepare(split.scene);
+}
+
+Result<api::LightFallbacks::Choice> Engine::State::prepared(Frame& frame, const LightRequest& request,
+                                                            api::LightFallbacks::Choice choice) {
+  LightCache& cache = cacheOf(request.light);
+  techniques::Technique& asked = *choice.technique;
   api::Refusal& refusal = cache.refusal;
   techniques::Technique* instead = techniqueNamed("pcss-mip");
-  const bool refused = refusal.technique == &asked && refusal.settings == settings->revision() &&
-                       std::ranges::equal(refusal.casters, casters);
+  const bool refused = refusal.technique == &asked && refusal.settings == choice.settings->revision() &&
+                       std::ranges::equal(refusal.casters, request.casters);
   if (!refused) {
-    const Status planned = prepareLight(cache, asked, scene);
-    if (planned) return &asked;
+    const Status planned = prepareLight(frame, request, choice);
+    if (planned) return choice;
     // Only what was planned, on the CPU, can be planned otherwise; a host that evaluates asked for this one.
     const bool hostEvaluates = frame.desc.output == Output::lightsOnly;
     if (planned.error().code != ErrorCode::outOfMemory || hostEvaluates || &asked == instead)
       return planned.error();
     refusal = {.technique = &asked,
-               .casters = {casters.begin(), casters.end()},
-               .settings = settings->revision(),
+               .casters = {request.casters.begin(), request.casters.end()},
+               .settings = choice.settings->revision(),
                .why = planned.error().message};
   }
-  frame.graph.noteSkipped(nameOf(index) + " " + asked.info().id, refusal.why + "; pcss-mip takes the light");
-  const auto choice = choiceFor(frame, index, *instead);
-  if (!choice) return choice.error();
-  if (Status s = prepareLight(cache, *choice->technique, scene); !s) return s.error();
-  return choice->technique;
+  frame.graph.noteSkipped(nameOf(request.light) + " " + asked.info().id,
+                          refusal.why + "; pcss-mip takes the light");
+  auto taken = choiceFor(frame, request.light, *instead);
+  if (!taken) return taken.error();
+  if (Status s = prepareLight(frame, request, *taken); !s) return s.error();
+  return taken;
 }
 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,

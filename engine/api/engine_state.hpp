@@ -9,6 +9,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -93,6 +94,19 @@ struct ReportStorage {
   std::vector<PassRecord> passes;
   std::vector<SkipRecord> skips;
   std::string planText, planGraphviz;
+};
+
+/// What of a light is the same whatever takes it.
+struct LightRequest {
+  std::size_t light = 0;
+  std::uint64_t contentKey = 0, sceneKey = 0;  ///< of light and casters; the same with the receivers
+  double receiverFarDistance = 0.0;
+  std::span<const std::uint32_t> casters;  ///< by index in the scene's lists
+};
+
+struct SplitScene {
+  techniques::LightScene scene;
+  std::string reason;  ///< why the light is split, or not; may be empty
 };
 
 struct Engine::State {
@@ -182,13 +196,13 @@ struct Engine::State {
                  std::span<const techniques::DrawItem> casters) const;
   /// Of the receivers in the light's fit; found again when the scene changed.
   double receiverReach(LightCache& cache, std::uint64_t sceneKey) const;
-  /// The technique, or the one that takes its place where it cannot plan the scene; passes are prepared.
-  Result<techniques::Technique*> preparedTechnique(Frame& frame, std::size_t index,
-                                                   techniques::Technique& technique,
-                                                   const techniques::LightScene& scene,
-                                                   std::span<const std::uint32_t> casters);
-  Status prepareLight(LightCache& cache, techniques::Technique& technique,
-                      const techniques::LightScene& scene);
+  /// As the technique of the choice sees the light, with its settings.
+  SplitScene sceneFor(const Frame& frame, const LightRequest& request,
+                      const api::LightFallbacks::Choice& choice);
+  /// The choice, or what takes its place where it cannot plan the scene; passes are prepared.
+  Result<api::LightFallbacks::Choice> prepared(Frame& frame, const LightRequest& request,
+                                               api::LightFallbacks::Choice choice);
+  Status prepareLight(Frame& frame, const LightRequest& request, const api::LightFallbacks::Choice& choice);
   /// Uploads and declares the light's prepared passes.
   Result<techniques::ReceiverShading> shadingOf(techniques::FramePasses& passes, std::size_t index);
   // Programs that draw nothing (engine_proofs.cpp).

@@ -103,6 +103,8 @@ Status ProofBench::draw(const ProgramUse& use, int column) {
   program.set(context, "u_mapClipFromObject", glm::mat4(1.0f));
   program.set(context, "u_clipFromLight", glm::mat4(1.0f));
   program.set(context, "u_keepAll", 1.0f);
+  program.set(context, "u_alphaCutoff",
+              -1.0f);  // whatever texture is bound, it cuts no hole; draws set their own
   if (Status s = bind(use); !s) return s;
   // Two draws of a pixel: the same interpolated values for both.
   for (int row = 0; row < (showsByColor(use) ? 2 : 1); ++row) {

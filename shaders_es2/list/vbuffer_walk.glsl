@@ -66,7 +66,7 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 project
     if (tags.closes > 0.5) {
       // A facet hides nothing from itself.
       bool counts = hs_facetRounding <= 0.0 || walk.offFacet > hs_facetRounding;
-      if (counts && dot(parts.share, vec4(1.0)) > 0.0) hs_addSums(sums, parts);
+      if (counts && hs_wayRound(parts) > 0.0) hs_addSums(sums, parts);
       hs_clearSums(walk.oneSided);
     }
   }

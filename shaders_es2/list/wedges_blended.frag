@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Forest's blending of penumbrae, gathered: caster by caster the occluded share, rectangle and centre of gravity of
-// each quadrant, merged into those of the casters before. Both vBuffers are registers.
+// each quadrant, merged into those of the casters before. Both vBuffers are registers. HS_HALF: of one row of quadrants;
+// what the two rows hide adds up.
 // Based on: Forest, Barthe, Paulin 2006, section 3.
 #include "receiver/tap_count.glsl"
 #include "list/vbuffer_edges.glsl"
@@ -123,8 +124,10 @@ float halfshadow_visibility() {
   bool blended = hs_listed;
   HS_Occlusion all = hs_blendedAmong(at, origin, blended, hs_nothing());
 #else
+#if !defined(HS_HALF) || HS_HALF == 0
   HS_HIGHP float sumOfShares = hs_sumOfShares(at, origin);
   if (hs_apart) lit = 1.0 - sumOfShares;
+#endif
   bool blended = hs_listed && !hs_apart;
 #ifdef HS_AMONG_RECEIVERS
   HS_Occlusion all = hs_blended(at, origin, blended && !hs_among);
@@ -133,7 +136,10 @@ float halfshadow_visibility() {
   HS_Occlusion all = hs_blended(at, origin, blended);
 #endif
 #endif
-  return blended ? 1.0 - dot(all.share, vec4(0.25)) : lit;
+#if defined(HS_HALF) && HS_HALF == 1
+  lit = 1.0;  // the other half tells
+#endif
+  return blended ? 1.0 - dot(all.share, HS_Quads(0.25)) : lit;
 }
 #ifdef HS_SHADED
 #include "receiver/shade.glsl"

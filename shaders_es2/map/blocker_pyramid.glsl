@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Mean gap to the casters over a region of the map, from an atlas of levels of cells that hold an occupied share and
-// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl and
-// penumbra_bounds.glsl.
+// a mean depth: the finest level at the left, the others stacked at its right. Needs occupancy_storage.glsl,
+// spread_places.glsl and penumbra_bounds.glsl.
 //
 // Cells are weighed here, not by the sampler: filters of 8 bits leave no depth to tell widths by, and a cell
 // beyond the receiver blocks nothing.
@@ -12,12 +12,10 @@ uniform HS_HIGHP vec4 u_pyramidLayout;
 // x: depth of the nearest caster, y: depth range of casters / 255
 uniform HS_HIGHP vec4 u_pyramidRange;
 
-// What one cell, whose centre is at uv, says. x: share of it that lies nearer, y: share times gap.
+// The cell whose centre is at uv, see hs_unpackOccupancy().
 HS_HIGHP vec2 hs_cell(HS_HIGHP vec2 uv) {
-  HS_HIGHP vec2 stored = hs_unpackOccupancy(texture2D(u_pyramid, uv));
   HS_COUNT(1);
-  HS_HIGHP float gap = hs_receiverValue - (u_pyramidRange.x + u_pyramidRange.y * stored.y);
-  return stored.x * step(0.0, gap) * vec2(1.0, gap);
+  return hs_unpackOccupancy(texture2D(u_pyramid, uv));
 }
 
 // Texel of the atlas at which a level's cells begin.
@@ -49,9 +47,12 @@ HS_HIGHP vec2 hs_cellsAround(HS_HIGHP vec2 texel, HS_HIGHP float level) {
   HS_HIGHP vec2 pitch = hs_cellPitch();
   HS_HIGHP vec2 uv = (hs_levelOrigin(level, side) + first + 0.5) * pitch;
   HS_HIGHP vec2 uvNext = uv + pitch;
-  HS_HIGHP vec2 sum = near.y * (near.x * hs_cell(uv) + next.x * hs_cell(vec2(uvNext.x, uv.y))) +
-                      next.y * (near.x * hs_cell(vec2(uv.x, uvNext.y)) + next.x * hs_cell(uvNext));
-  return sum * (1.0 / 255.0);
+  HS_HIGHP vec2 a = hs_cell(uv), b = hs_cell(vec2(uvNext.x, uv.y)), c = hs_cell(vec2(uv.x, uvNext.y)), d = hs_cell(uvNext);
+  // x: share of it that lies nearer, y: share times gap; what lies beyond the receiver blocks nothing.
+  HS_HIGHP vec4 gap = hs_receiverValue - u_pyramidRange.x - u_pyramidRange.y * vec4(a.y, b.y, c.y, d.y);
+  HS_HIGHP vec4 share = vec4(a.x, b.x, c.x, d.x) * step(vec4(0.0), gap) * vec4(near.x, next.x, near.x, next.x) *
+                        vec4(near.yy, next.yy);
+  return vec2(dot(share, vec4(1.0)), dot(share, gap)) * (1.0 / 255.0);
 }
 
 // The same over about widthTexels of the depth map, between two levels: changes evenly with the width. A region much
@@ -67,13 +68,20 @@ HS_HIGHP vec2 hs_blockersAround(HS_HIGHP vec2 widthTexels) {
   HS_HIGHP float cellsWide = width * u_pyramidLayout.x * u_pyramidLayout.z;
   HS_HIGHP float level = clamp(log2(max(0.5 * cellsWide, 1.0)), 0.0, u_pyramidLayout.y);
   HS_HIGHP float lower = floor(level);
+  HS_HIGHP float between = level - lower;
+  HS_HIGHP vec2 texel = hs_texel - 0.5 * along;
+  HS_HIGHP vec2 stride = along / max(strides, 1.0);
   HS_HIGHP vec2 sum = vec2(0.0);
-  for (int i = 0; i < 5; ++i) {
-    if (float(i) > strides) break;
-    HS_HIGHP vec2 texel = hs_texel + along * (float(i) / max(strides, 1.0) - 0.5);
-    HS_HIGHP vec2 around = hs_cellsAround(texel, lower);
-    if (level > lower) around = mix(around, hs_cellsAround(texel, lower + 1.0), level - lower);
-    sum += around;
+  // A level a turn, the finer one first: programs are half as long. Their number is one that compilers do not know.
+  HS_HIGHP float left = strides;
+  HS_HIGHP float coarser = 0.0;
+  for (int i = 0; i < HS_MOST_TURNS; ++i) {
+    if (left < -0.5) break;
+    HS_HIGHP float share = coarser > 0.5 ? between : 1.0 - between;
+    if (share > 0.0) sum += share * hs_cellsAround(texel, lower + coarser);
+    texel += coarser * stride;
+    left -= coarser;
+    coarser = 1.0 - coarser;
   }
   return sum / (strides + 1.0);
 }

@@ -2,40 +2,26 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Mean gap between the receiver and what blocks it, from taps over a rectangle of the map.
 // Based on: Fernando, "Percentage-Closer Soft Shadows", 2005 (blocker search).
-// Needs spread_places.glsl.
-
-// x: does what is stored block, y: its gap if so
-HS_HIGHP vec2 hs_searchTap(HS_HIGHP vec2 texel, HS_HIGHP float plane, HS_HIGHP float bias) {
-  HS_HIGHP float gap = hs_gap(texture2D(u_depthMap, hs_mapUv(texel)), hs_receiver);
-  HS_COUNT(1);
-  return (1.0 - step(min(plane, 0.0) - bias, gap)) * vec2(1.0, gap);
-}
+// Needs spread_places.glsl and spread_taps.glsl.
 
 // asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker
 // to receiver.
 HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
-  HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  HS_HIGHP vec2 width = max(asked, vec2(1.0));
-  HS_HIGHP vec2 gradient = hs_gradient * width;
   HS_Places places = hs_firstPlaces(side);
+  hs_beginTaps(max(asked, vec2(1.0)), u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y)));
   HS_HIGHP vec2 found = vec2(0.0);
 #ifdef HS_SHORT
-  HS_HIGHP float count = places.turns;
+  HS_HIGHP float count = places.turns + 0.5;
 #else
   HS_HIGHP float count = side * side;
-  if (places.center > 0.5) found = hs_searchTap(hs_texel, 0.0, bias);
+  if (places.center > 0.5) found = hs_blockingTap(vec2(0.0), 0.0);
 #endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
-    if (places.turns < 0.5) break;
-    HS_HIGHP vec2 offset = places.place * width;
+    if (float(i) > places.turns) break;
 #ifdef HS_SHORT
-    found += hs_searchTap(hs_texel + offset, dot(gradient, places.place), bias);
+    found += hs_blockingTap(places.place * hs_tapScale, dot(hs_tapGradient, places.place));
 #else
-    HS_HIGHP vec2 turned = vec2(-places.place.y, places.place.x) * width;
-    HS_HIGHP float plane = dot(gradient, places.place);
-    HS_HIGHP float turnedPlane = gradient.y * places.place.x - gradient.x * places.place.y;
-    found += hs_searchTap(hs_texel + offset, plane, bias) + hs_searchTap(hs_texel - offset, -plane, bias) +
-             hs_searchTap(hs_texel + turned, turnedPlane, bias) + hs_searchTap(hs_texel - turned, -turnedPlane, bias);
+    found += hs_blockingTaps(places.place);
 #endif
     hs_nextPlaces(places);
   }

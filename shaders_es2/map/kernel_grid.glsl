@@ -24,15 +24,18 @@ float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
          step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
 }
 #else
-#define HS_RowPlane HS_HIGHP float  // of the first tap, less the bias
-HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) { return planeFirst - bias; }
+// The receiver's depth is added to what texels are compared with, once, not taken from each of them.
+#define HS_RowPlane HS_HIGHP float  // of the first tap, with what every tap is compared with
+HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) {
+  return planeFirst + (hs_receiver - bias);
+}
 float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
-  HS_HIGHP float least = -bias;
+  HS_HIGHP float least = hs_receiver - bias;
   HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
-  return step(min(plane, least), hs_gap(texture2D(u_depthMap, uv), hs_receiver)) +
-         step(min(next.x, least), hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver)) +
-         step(min(next.y, least), hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver)) +
-         step(min(next.z, least), hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+  return step(min(plane, least), hs_depthValue(texture2D(u_depthMap, uv))) +
+         step(min(next.x, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)))) +
+         step(min(next.y, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)))) +
+         step(min(next.z, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
 }
 #endif
 #endif

@@ -1,32 +1,25 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Taps spread evenly over a rectangle of the map: side x side of them, side at most 17 and chosen per fragment. Needs
-// spread_places.glsl.
+// spread_places.glsl and spread_taps.glsl.
 
 // width: sides of the rectangle in texels.
 float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias) {
   HS_Places places = hs_firstPlaces(side);
-  HS_HIGHP vec2 gradient = hs_gradient * width;
+  hs_beginTaps(width, bias);
   float lit = 0.0;
 #ifdef HS_SHORT
-  HS_HIGHP float count = places.turns;
+  HS_HIGHP float count = places.turns + 0.5;
 #else
   HS_HIGHP float count = side * side;
-  if (places.center > 0.5) lit = hs_lit(hs_texel, hs_receiver, 0.0, bias);
+  if (places.center > 0.5) lit = hs_litTap(vec2(0.0), 0.0);
 #endif
   for (int i = 0; i < HS_MOST_TURNS; ++i) {
-    if (places.turns < 0.5) break;
-    HS_HIGHP vec2 offset = places.place * width;
+    if (float(i) > places.turns) break;
 #ifdef HS_SHORT
-    lit += hs_lit(hs_texel + offset, hs_receiver, dot(gradient, places.place), bias);
+    lit += hs_litTap(places.place * hs_tapScale, dot(hs_tapGradient, places.place));
 #else
-    HS_HIGHP vec2 turned = vec2(-places.place.y, places.place.x) * width;
-    HS_HIGHP float plane = dot(gradient, places.place);
-    HS_HIGHP float turnedPlane = gradient.y * places.place.x - gradient.x * places.place.y;
-    lit += hs_lit(hs_texel + offset, hs_receiver, plane, bias) +
-           hs_lit(hs_texel - offset, hs_receiver, -plane, bias) +
-           hs_lit(hs_texel + turned, hs_receiver, turnedPlane, bias) +
-           hs_lit(hs_texel - turned, hs_receiver, -turnedPlane, bias);
+    lit += hs_litTaps(places.place);
 #endif
     hs_nextPlaces(places);
   }

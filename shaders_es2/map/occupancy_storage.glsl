@@ -12,6 +12,10 @@ vec4 hs_packOccupancy(HS_HIGHP vec2 occupancy) {
 
 // In steps of 1/255.
 HS_HIGHP vec2 hs_unpackOccupancy(HS_HIGHP vec4 stored) {
+#ifdef HS_NO_HIGHP
   HS_HIGHP vec4 bytes = floor(stored * 255.0 + 0.5);
+#else
+  HS_HIGHP vec4 bytes = stored * 255.0;  // whole to a part of a low byte
+#endif
   return bytes.rb + bytes.ga * (1.0 / 256.0);
 }

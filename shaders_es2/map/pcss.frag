@@ -10,6 +10,7 @@
 #include "map/half_plane.glsl"
 #include "map/horizon.glsl"
 #include "map/spread_places.glsl"
+#include "map/spread_taps.glsl"
 #include "map/kernel_spread.glsl"
 #include "map/penumbra_bounds.glsl"
 #include "map/blocker_search.glsl"

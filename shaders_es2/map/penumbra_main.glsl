@@ -45,9 +45,11 @@ float hs_meanVisibility() {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
     all += above;
+#ifdef HS_HORIZON
     // From below the horizon the caster's own body hides the fragment: what a part that reaches above it sees, the
     // others tell.
     if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+#endif
 #ifndef HS_ONE_SEARCH
     hs_widestGap = widestGap;
     width = hs_penumbraWidth();

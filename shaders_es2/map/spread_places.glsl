@@ -17,7 +17,7 @@
 #endif
 
 struct HS_Places {
-  HS_HIGHP float turns;   // that are left
+  HS_HIGHP float turns;   // that they take, less a half
   HS_HIGHP float center;  // 1: the middle is a place as well
   HS_HIGHP vec2 place;    // of this turn, in sides of the rectangle from its middle; the others by quarter turns
   HS_HIGHP vec2 outward;  // to the next one
@@ -32,23 +32,23 @@ HS_Places hs_firstPlaces(HS_HIGHP float side) {
   side += min(u_map.x, 0.0);
   HS_Places places;
   HS_HIGHP float spacing = 1.0 / (side * side);
-  places.turns = floor(0.25 * side * side);
-  places.center = side * side - 4.0 * places.turns;
+  HS_HIGHP float turns = floor(0.25 * side * side);
+  places.center = side * side - 4.0 * turns;
   // The place in the middle takes half a step of each direction.
   HS_HIGHP float first = 0.5 * places.center * spacing;
-  HS_HIGHP float range = 2.0 * spacing * places.turns;
+  HS_HIGHP float range = 2.0 * spacing * turns;
   places.place = first + vec2(0.5 * spacing, 0.31315 * range);
   places.outward = vec2(2.0 * spacing, 0.6263 * range);
   places.wrap = vec2(first + range, range);
 #ifdef HS_SHORT
-  places.turns *= 4.0;
+  turns *= 4.0;
   places.quarter = 0.0;
 #endif
+  places.turns = turns - 0.5;
   return places;
 }
 
 void hs_nextPlaces(inout HS_Places places) {
-  places.turns -= 1.0;
 #ifdef HS_SHORT
   places.quarter += 1.0;
   HS_HIGHP float outward = step(3.5, places.quarter);

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Lit colour of up to four lights whose visibilities an earlier pass left on the screen, one in each channel.
+#define HS_LIGHTS_APART
 #include "receiver/shade.glsl"
 #include "receiver/alpha_mask.glsl"
 uniform HS_HIGHP sampler2D u_visibility;
 uniform HS_HIGHP vec4 u_viewport;          // xy: 1 / size, zw: -origin / size
 uniform HS_HIGHP vec4 u_lightPosition[4];  // xyz: relative to the first light's centre, w: reference distance, 0: none
 uniform HS_HIGHP vec4 u_lightEmission[4];  // xyz: unit direction, w: slope of the cone's edge
-uniform HS_HIGHP vec4 u_lightColor[4];     // rgb: colour times intensity, 0 where there is no light; w: offset of the cone's edge
+uniform HS_HIGHP vec4 u_lightColor[4];     // rgb: what hs_lightTerm() multiplies, 0 where there is no light; w: offset of the cone's edge
 
 void main() {
   vec4 visibility = texture2D(u_visibility, gl_FragCoord.xy * u_viewport.xy + u_viewport.zw);

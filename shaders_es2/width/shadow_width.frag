@@ -185,8 +185,10 @@ float hs_meanVisibility() {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
     all += above;
+#ifdef HS_HORIZON
     // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
     if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
+#endif
     sum += above * hs_visibility();
     seen += above;
   }
@@ -210,8 +212,13 @@ float halfshadow_class() {
 
 float halfshadow_visibility() {
   hs_prepare();
+#ifdef HS_CLASSIFIED
+  // What the mask knows was drawn before.
+  return hs_meanVisibility();
+#else
   float known = hs_maskClass();
   return known > -0.5 ? known * hs_lightAbove() : hs_meanVisibility();
+#endif
 }
 #else
 float halfshadow_visibility() {

@@ -23,14 +23,17 @@ HS_HIGHP vec2 hs_widestKernels() {
   return vec2(u_kernel.x * (hs_receiverValue - u_casterDepth.x), u_kernel.z);
 }
 
+// Of the sub-lights there are fewer; compilers unroll loops of up to 32 turns.
+#define HS_MORE_THAN_UNROLLED 48
+
 #ifdef HS_MAY_CAST
 // Of the sub-light that was entered.
-float hs_litByWidths(HS_HIGHP vec2 widest) {
+float hs_litByWidths() {
   HS_HIGHP vec2 size = u_widthTile.xy;
   HS_HIGHP vec2 texel = clamp(hs_texel * u_widthPlace.xy + u_widthPlace.z, vec2(0.5), size - 0.5);
   HS_HIGHP vec4 stored = texture2D(u_widthMap, (hs_tile * size + texel) * u_widthLayout.zw);
   HS_COUNT(1);
-  HS_HIGHP vec2 widths = widest - u_kernel.y * stored.b;
+  HS_HIGHP vec2 widths = hs_widestKernels() - u_kernel.y * stored.b;
   HS_HIGHP float corners = hs_cornerWeight(widths);
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float leastInside = -1.0;
@@ -47,7 +50,7 @@ float hs_litByWidths(HS_HIGHP vec2 widest) {
   return hs_litByEdge(stored, widths.x, corners, leastInside);
 }
 
-float hs_meanOfWidths(HS_HIGHP vec2 widest) {
+float hs_meanOfWidths() {
   float lit = 0.0;
   float seen = 0.0;
   float all = 0.0;
@@ -55,44 +58,60 @@ float hs_meanOfWidths(HS_HIGHP vec2 widest) {
     hs_enterSubLight(float(i));
     float above = hs_subLightAbove();
     all += above;
+#ifdef HS_HORIZON
     // From below the horizon the caster's own body hides the fragment, see penumbra_main.glsl.
     if (above <= 0.0 || hs_turned * u_receiver.x < 0.0) continue;
-    lit += above * hs_litByWidths(widest);
+#endif
+    lit += above * hs_litByWidths();
     seen += above;
   }
   return lit * (all / max(seen, 1e-3));
 }
 #else
+// Rows of the light's parts are those of the atlas.
+#if HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V > (HS_SUB_LIGHTS_U - 1) * (HS_SUB_LIGHTS_U - 1) && HS_SUB_LIGHTS_V <= HS_SUB_LIGHTS_U
+#define HS_ROWS_ALIKE
+#endif
+uniform HS_HIGHP vec4 u_widthSteps;  // of the atlas per unit of depth between neighbours, xy along u, zw along v
+uniform HS_HIGHP vec4 u_widthFirst;  // of the atlas: xy: per depth texel, zw: margin of the first map
 // Places in the atlas are counted on from one sub-light to the next.
-float hs_meanOfWidths(HS_HIGHP vec2 widest) {
-  HS_HIGHP vec2 perTexel = u_widthPlace.xy * u_widthLayout.zw;
-  HS_HIGHP vec2 tile = u_widthTile.xy * u_widthLayout.zw;
-  HS_HIGHP vec2 low = 0.5 * u_widthLayout.zw;
-  HS_HIGHP vec2 high = tile - low;
-  HS_HIGHP vec2 stepScale = perTexel * (hs_receiverValue - u_subLights.x);
-  HS_HIGHP vec2 stepU = u_subLightStep.xy * stepScale;
-  HS_HIGHP vec2 stepV = u_subLightStep.zw * stepScale;
-  HS_HIGHP vec2 row = hs_texel * perTexel + u_widthPlace.z * u_widthLayout.zw -
-                      0.5 * float(HS_SUB_LIGHTS_U - 1) * stepU - 0.5 * float(HS_SUB_LIGHTS_V - 1) * stepV;
+float hs_meanOfWidths() {
+  HS_HIGHP vec4 steps = u_widthSteps * (hs_receiverValue - u_subLights.x);
+  HS_HIGHP vec2 uv = hs_texel * u_widthFirst.xy + u_widthFirst.zw - 0.5 * float(HS_SUB_LIGHTS_U - 1) * steps.xy -
+                     0.5 * float(HS_SUB_LIGHTS_V - 1) * steps.zw;
+  HS_HIGHP vec2 nextRow = steps.zw - float(HS_SUB_LIGHTS_U) * steps.xy;
   HS_HIGHP vec2 corner = vec2(0.0);
+#ifndef HS_ROWS_ALIKE
+  HS_HIGHP float column = 0.0;
+#endif
   float lit = 0.0;
-  for (int v = 0; v < HS_SUB_LIGHTS_V; ++v) {
-    HS_HIGHP vec2 uv = row;
-    for (int u = 0; u < HS_SUB_LIGHTS_U; ++u) {
-      HS_HIGHP vec4 stored = texture2D(u_widthMap, corner + clamp(uv, low, high));
-      HS_COUNT(1);
-      HS_HIGHP vec2 widths = widest - u_kernel.y * stored.b;
-      lit += hs_litByEdge(stored, widths.x, hs_cornerWeight(widths), -1.0);
-      uv += stepU;
-      corner.x += tile.x;
-      corner += step(1.0 - low.x, corner.x) * vec2(-1.0, tile.y);
-    }
-    row += stepV;
+  // An end that compilers do not know: nine turns in a row are more than many devices have room for.
+  HS_HIGHP float left = float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V) - 0.5 + min(u_map.x, 0.0);
+  for (int i = 0; i < HS_MORE_THAN_UNROLLED; ++i) {
+    if (left < 0.0) break;
+    // What is the same in all turns and costs little is found in each, from uniforms that are not read before: registers
+    // are few.
+    HS_HIGHP vec2 tile = u_widthTile.xy * u_widthLayout.zw;
+    HS_HIGHP vec2 low = 0.5 * u_widthLayout.zw;
+    HS_HIGHP vec4 stored = texture2D(u_widthMap, corner + clamp(uv, low, tile - low));
+    HS_COUNT(1);
+    HS_HIGHP vec2 widths = hs_widestKernels() - u_kernel.y * stored.b;
+    lit += hs_litByEdge(stored, widths.x, hs_cornerWeight(widths), -1.0);
+    left -= 1.0;
+    corner.x += tile.x;
+    HS_HIGHP float ends = step(1.0 - low.x, corner.x);
+    corner += ends * vec2(-1.0, tile.y);
+#ifndef HS_ROWS_ALIKE
+    column += 1.0;
+    ends = step(float(HS_SUB_LIGHTS_U) - 0.5, column);
+    column -= ends * float(HS_SUB_LIGHTS_U);
+#endif
+    uv += steps.xy + ends * nextRow;
   }
   return lit;
 }
 #endif
 
 float hs_meanVisibility() {
-  return hs_meanOfWidths(hs_widestKernels()) * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
+  return hs_meanOfWidths() * (1.0 / float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V));
 }

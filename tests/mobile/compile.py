@@ -9,7 +9,8 @@ PATH: the program mobile_programs (default: build/bin/mobile_programs beside thi
 which compilers of these GPUs were built from Mesa under its drm-shim, with compile_on_gpus.py in it (default: the
 environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings are compiled;
 those that its driver would leave out are left out under the engine as well, whose fallbacks are then compiled, until
-nothing is dropped. Prints counts per technique and path, and checks them against limits.json beside this file.
+nothing is dropped. Prints counts per technique and path, and of some programs with loops what
+a fragment executes, and checks them against limits.json beside this file.
 FILE: gets the counts as JSON. Counts are compiled, not measured: nothing is drawn on a GPU.
 Exit status: 0 within the limits, 1 beyond, 77 without compilers."""
 import argparse
@@ -134,6 +135,71 @@ def violations(gpu, limits):
                 beyond = value < limit if name == "threads" else value > limit
                 if beyond:
                     found.append(f"{gpu.name}: {label}: {value} {name}, the limit is {limit}")
+    for rule in limits["executed"]:
+        if gpu.name not in rule["limits"]:
+            continue
+        counts = executed(gpu, rule)
+        if not counts:
+            found.append(f"{gpu.name}: no program is {rule['match']}")
+        for label, count in counts.items():
+            print(f"{gpu.name}: {label}: {count} executed")
+            if count > rule["limits"][gpu.name]:
+                found.append(f"{gpu.name}: {label}: {count} executed, the limit is {rule['limits'][gpu.name]}")
+    return found
+
+
+def repeated(text, function, times):
+    """The program with the body of a function's first loop written so many times."""
+    head = re.search(r"^[A-Za-z][^\n;]*\b" + function + r"\([^;{]*\{", text, re.M)
+    # Where the preprocessor chooses among headers, the body follows the last.
+    header = re.compile(r"for \((?:HS_HIGHP )?int \w+ = 0; [^{]*\{\n(?:#else\n *for [^{]*\{\n#endif\n)?")
+    begin = end = header.search(text, head.end()).end()
+    depth = 1
+    while depth > 0:
+        depth += {"{": 1, "}": -1}.get(text[end], 0)
+        end += 1
+    body = "{" + text[begin:end - 1] + "}\n"
+    return text[:begin] + times * body + text[end - 1:]
+
+
+class Sizes:
+    """Of programs that are no others than a GPU's own with some lines written again."""
+
+    def __init__(self, gpu, folder):
+        self.gpu, self.folder = gpu, folder
+        self.worker = gpu.tools.Worker(gpu.name)
+
+    def of(self, line, text):
+        path = os.path.join(self.folder, "repeated.frag")
+        with open(path, "w") as file:
+            file.write(text)
+        status, output = self.worker.run("repeated", line[1], path, line[3])
+        result = self.gpu.tools.parse(self.gpu.name, status, output)
+        return result["fs"]["i"] if result["status"] == "ok" else float("inf")
+
+    def executed(self, line, turns):
+        """Counts have one turn of each loop; a turn takes half of what three in a row take more than one."""
+        with open(line[2]) as source:
+            text = source.read()
+        total = self.of(line, text)
+        for function, count in turns.items():
+            total += (count - 1) * (self.of(line, repeated(text, function, 3)) - self.of(line, text)) // 2
+        return total
+
+
+def executed(gpu, rule):
+    """What a fragment runs, by label."""
+    folder = os.path.join(gpu.folder, "executed")
+    subprocess.run([gpu.options.programs, folder, gpu.rung, "--scenes", rule["scene"]] + rule["settings"], check=True,
+                   stderr=subprocess.DEVNULL)
+    sizes = Sizes(gpu, folder)
+    found = {}
+    with open(os.path.join(folder, "programs.tsv")) as file:
+        for line in (text.rstrip("\n").split("\t") for text in file):
+            label = " ".join(line[5].split()) + " " + line[3]
+            if re.search(rule["match"], label) and not re.search(rule["but"], label):
+                found[label] = sizes.executed(line, rule["turns"])
+    sizes.worker.close()
     return found
 
 
@@ -162,6 +228,13 @@ def table(gpus):
                 cells = rows.setdefault((technique, path, casting), {})
                 cells[gpu.name] = max(cells.get(gpu.name, (0, "-")), size)
     return {key: {name: cell for name, (_, cell) in cells.items()} for key, cells in rows.items()}
+
+
+def text_of(document):
+    """JSON with a line for each row of the table."""
+    rows = ",\n".join("  " + json.dumps(row) for row in document["counts"])
+    others = json.dumps(document | {"counts": []}, indent=1)
+    return others.replace('"counts": []', '"counts": [\n' + rows + "\n ]", 1) + "\n"
 
 
 def main():
@@ -193,12 +266,11 @@ def main():
             print(f"{name}: {technique} -> {'; '.join(steps)}")
     if options.write:
         with open(options.write, "w") as file:
-            json.dump({"note": NOTE,
-                       "columns": [{"gpu": name, "title": TITLES.get(name, name)} for name in names],
-                       "counts": [{"technique": t, "path": p, "receivers": r or "all others", "counts": cells}
-                                  for (t, p, r), cells in sorted(rows.items())],
-                       "fallbacks": taken}, file, indent=1)
-            file.write("\n")
+            file.write(text_of({"note": NOTE,
+                                "columns": [{"gpu": name, "title": TITLES.get(name, name)} for name in names],
+                                "counts": [{"technique": t, "path": p, "receivers": r or "all others", "counts": cells}
+                                           for (t, p, r), cells in sorted(rows.items())],
+                                "fallbacks": taken}))
     for line in wrong:
         print("beyond the limits: " + line)
     return 1 if wrong else 0

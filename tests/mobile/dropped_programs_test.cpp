@@ -181,6 +181,40 @@ TEST_F(DroppedPrograms, LeaveFiltersThatFollowThePenumbra) {
   }
 }
 
+// Casters with holes are drawn by a variant of their own.
+TEST_F(DroppedPrograms, ThatCutHolesAreFound) {
+  for (const char* technique : {"hard", "occlusion-textures", "shadow-volume"}) {
+    const auto render = [&](DropRule rule) {
+      SceneRenderer& renderer = start(std::move(rule));
+      const float positions[] = {-1, 2, -1, 1, 2, -1, 1, 2, 1, -1, 2, 1};
+      const float texcoords[] = {0, 0, 1, 0, 1, 1, 0, 1};
+      const std::uint32_t indices[] = {0, 2, 1, 0, 3, 2};
+      const std::uint8_t pixels[] = {90, 90, 90, 255, 90, 90, 90, 0};
+      ObjectDesc card{.mesh = {.positions = positions,
+                               .vertexCount = 4,
+                               .indices = indices,
+                               .indexCount = 6,
+                               .texcoords = texcoords}};
+      card.baseColorPixels = pixels;
+      card.baseColorWidth = 2;
+      card.baseColorHeight = 1;
+      card.alphaCutoff = 0.5f;
+      ObjectId id = 0;
+      EXPECT_TRUE(renderer.engine().addObject(card, id).ok());
+      (void)renderer.render(Configuration{technique}, Output::visibility);
+    };
+    render({});
+    EXPECT_FALSE(givesReason(kDraws)) << technique;
+    // Of casters: receivers have their own proofs.
+    render([](const DrawnProgram& program) {
+      return program.defines().find("ALPHA_MASK") != std::string::npos &&
+             program.fragment.find("halfshadow_visibility") == std::string::npos;
+    });
+    EXPECT_TRUE(givesReason(kDraws)) << technique;
+    expectNothingDropped();
+  }
+}
+
 // As where blending is part of what is compiled.
 TEST_F(DroppedPrograms, AreFoundWithTheBlendingOfTheirUse) {
   const auto blended = [](const DrawnProgram& program) {

@@ -45,7 +45,11 @@ FilterSkip preferredSkip(const LightScene& scene) {
 }
 
 bool hasShortPrograms(const LightScene& scene) {
-  return scene.settings.choice("program_size") == "short";
+  return scene.settings.choice("program_size") != "full";
+}
+
+bool hasProgramsInParts(const LightScene& scene) {
+  return scene.settings.choice("program_size") == "parts";
 }
 
 }  // namespace halfshadow::techniques

@@ -151,6 +151,7 @@ FilterSkip preferredSkip(const LightScene& scene);
 
 /// Setting program_size.
 bool hasShortPrograms(const LightScene& scene);
+bool hasProgramsInParts(const LightScene& scene);
 
 /// Makes one light's passes, frame after frame: kept beside the light, with whatever it needs to know again.
 class LightPlanner {

@@ -45,6 +45,9 @@ struct ReceiverShading {
   glm::dmat4 mapFromWorld{
       1.0};  ///< world -> (s·z, t·z, d·z, z); screen-space techniques use z alone, or none
   FilterSkip skip = FilterSkip::none;
+  /// With FilterSkip::stencil: the filter need not decide again, of receivers that the first draw leaves to
+  /// it.
+  bool filterTrustsClasses = false;
   bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.
   enum class SelfReceivers { none, casting, all } selfReceivers = SelfReceivers::none;

@@ -42,6 +42,18 @@ ShaderAxis castingAxis(std::vector<std::string> needs) {
   return flag("HS_CASTING_RECEIVER", std::move(needs));
 }
 
+std::vector<ShaderAxis> surfaceAxes(bool compiled) {
+  // The same few lines in all of them.
+  return {{{},
+           {{"HS_ALPHA_MASK"}, {}, compiled},
+           {{"HS_ALPHA_MASK", "HS_VERTEX_COLORS"}, {}, compiled},
+           {{"HS_VERTEX_COLORS"}, {"HS_SHADED"}, compiled}},
+          {{}, {{"HS_DARK"}, {"HS_SHADED", "!HS_BASE_COLOR_TEXTURE", "!HS_VERTEX_COLORS"}, compiled}},
+          {{}, {{"HS_LIGHT_BEHIND"}, {"HS_SHADED"}, compiled}},
+          {{}, {{"HS_LIGHT_CONES"}, {"HS_SHADED"}, compiled}},
+          {{}, {{"HS_LIGHT_FADES"}, {"HS_SHADED"}, compiled}}};
+}
+
 std::vector<ShaderFamily> receiverFamilies(const std::string& fragmentFile, const ReceiverTraits& traits,
                                            std::vector<ShaderAxis> axes) {
   // Without derivatives the facet's plane comes as a vertex attribute.
@@ -56,15 +68,14 @@ std::vector<ShaderFamily> receiverFamilies(const std::string& fragmentFile, cons
                   {{"HS_COUNT_TAPS"}},
                   {{"HS_SHADED"}},
                   {{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}});
-  // The same few lines in all of them: compiled where there is little else.
-  const bool compiled = fragmentFile == "receiver/none.frag" || fragmentFile == "receiver/shade_lights.frag";
-  axes.push_back({{},
-                  {{"HS_ALPHA_MASK"}, {}, compiled},
-                  {{"HS_ALPHA_MASK", "HS_VERTEX_COLORS"}, {}, compiled},
-                  {{"HS_VERTEX_COLORS"}, {"HS_SHADED"}, compiled}});
+  // Compiled where there is little else.
+  for (ShaderAxis& axis : surfaceAxes(fragmentFile == "receiver/none.frag")) axes.push_back(std::move(axis));
   if (traits.twoDraws) {
     axes.push_back(
         {{}, {{"HS_PHASE_CLASSIFY"}, {"!HS_COUNT_TAPS"}}, {{"HS_PHASE_FILTER"}, {"!HS_COUNT_TAPS"}}});
+    if (traits.filterTrustsClasses)
+      axes.back().push_back(
+          {{"HS_PHASE_FILTER", "HS_CLASSIFIED"}, {"!HS_COUNT_TAPS", "!HS_CASTING_RECEIVER"}});
   }
   families.push_back({"receiver/receiver.vert", fragmentFile, std::move(axes)});
   return families;

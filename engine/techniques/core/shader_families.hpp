@@ -28,11 +28,16 @@ ShaderAxis alphaAxis();
 /// HS_CASTING_RECEIVER, see ReceiverShading::selfReceivers.
 ShaderAxis castingAxis(std::vector<std::string> needs = {});
 
+/// What the surface of a receiver and the lights select of its programs, see ReceiverKind. compiled: by
+/// tests.
+std::vector<ShaderAxis> surfaceAxes(bool compiled);
+
 /// As in the ReceiverShading.
 struct ReceiverTraits {
   bool usesFacetPlane = false;
   bool twoDraws = false;  ///< with FilterSkip::stencil
   bool forward = true;
+  bool filterTrustsClasses = false;
 };
 /// The variants of a visibility function: `axes` of its own, and those that all have: output, facet plane,
 /// draw of two, and host's own main().

@@ -104,7 +104,10 @@ Status LightPasses::link(Device& device) {
       }
       const auto* receivers = std::get_if<ReceiversDraw>(&pass.draws[i].what);
       if (receivers == nullptr) continue;
-      auto set = receiverPrograms(device.programs, receivers->shading, receivers->output, receivers->items);
+      auto set = receiverPrograms(
+          device.programs, receivers->shading,
+          {.output = receivers->output, .depthIsComplete = receivers->target.depthIsComplete},
+          receivers->items);
       if (!set) return set.error();
       sets.resize(i + 1);
       sets[i] = *set;
@@ -206,7 +209,19 @@ void LightPasses::addUses(ProgramUses& uses) const {
       } else if (i == 0 || !usesAlike(draws[i - 1], draw)) {
         uses.add(*programs_[draw.program], draw.state, draw.textures, descOf);
       }
+      if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) addCuttingUses(uses, draw, *meshes, descOf);
     }
+  }
+}
+
+void LightPasses::addCuttingUses(ProgramUses& uses, const PlannedDraw& draw, const MeshDraw& meshes,
+                                 const ProgramUses::DescOf& descOf) const {
+  for (const bool colored : {false, true}) {
+    const auto cuts = [&](const DrawItem& item) {
+      return item.alphaMask != nullptr && item.vertexColors == colored;
+    };
+    if (std::ranges::any_of(meshes.items, cuts))
+      uses.add(*cutting_.at({draw.program, colored}), draw.state, draw.textures, descOf);
   }
 }
 

@@ -85,6 +85,9 @@ class LightPasses {
   void run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
            framegraph::PassContext& context) const;
   void runDraw(const PlannedDraw& draw, const Images& images, framegraph::PassContext& context) const;
+  /// Of the variants that cut holes.
+  void addCuttingUses(ProgramUses& uses, const PlannedDraw& draw, const MeshDraw& meshes,
+                      const ProgramUses::DescOf& descOf) const;
   /// The variant that cuts holes of one of the plan's programs that draws such an item.
   Status linkCutting(Device& device, std::uint32_t program, const DrawItem& item);
   void setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw, const Images& images,

@@ -13,8 +13,11 @@
 namespace halfshadow::techniques {
 namespace {
 
-std::vector<std::string> outputDefines(ReceiverOutput output, bool baseColorTexture) {
-  switch (output) {
+/// The largest of its colour's components below which the sky shows in a surface; as in shade.glsl.
+constexpr float kDark = 0.25f;
+
+std::vector<std::string> outputDefines(const ReceiverRequest& request, const ReceiverKind& kind) {
+  switch (request.output) {
     case ReceiverOutput::visibility:
       return {};
     case ReceiverOutput::visibility16:
@@ -22,10 +25,19 @@ std::vector<std::string> outputDefines(ReceiverOutput output, bool baseColorText
     case ReceiverOutput::taps:
       return {"HS_COUNT_TAPS"};
     case ReceiverOutput::shaded:
-      return baseColorTexture ? std::vector<std::string>{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}
-                              : std::vector<std::string>{"HS_SHADED"};
+      break;
   }
-  return {};
+  std::vector<std::string> defines{"HS_SHADED"};
+  if (kind.textured) defines.emplace_back("HS_BASE_COLOR_TEXTURE");
+  if (kind.dark) defines.emplace_back("HS_DARK");
+  if (kind.behind) defines.emplace_back("HS_LIGHT_BEHIND");
+  const auto anyLight = [&](double scene::AreaLight::*length) {
+    return std::ranges::any_of(request.lights,
+                               [&](const scene::AreaLight& light) { return light.*length > 0.0; });
+  };
+  if (anyLight(&scene::AreaLight::outerConeRadians)) defines.emplace_back("HS_LIGHT_CONES");
+  if (anyLight(&scene::AreaLight::referenceDistance)) defines.emplace_back("HS_LIGHT_FADES");
+  return defines;
 }
 
 void bindTextures(framegraph::PassContext& context, gl::Program& program, const ReceiverShading& shading) {
@@ -38,9 +50,22 @@ void bindTextures(framegraph::PassContext& context, gl::Program& program, const 
   context.encoder.bindTextures(bindings);
 }
 
+/// The light's own plane, where it ends, counts as behind it: sums of products there are rounding.
+bool reachesBehind(const DrawItem& item, const scene::AreaLight& light) {
+  constexpr double kRounding = 1e-3;
+  return std::ranges::any_of(item.boundsWorld.corners(), [&](const glm::dvec3& corner) {
+    const glm::dvec3 fromLight = corner - light.centerWorld;
+    return !(glm::dot(light.emission, fromLight) > kRounding * glm::length(fromLight));
+  });
+}
+
 /// The facet stream has no smooth normals and no texture coordinates, so shading takes it only where there
 /// are no derivatives to replace it.
-ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool shaded, bool derivatives) {
+ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item,
+                    std::span<const scene::AreaLight> shadedBy, bool derivatives) {
+  const bool shaded = !shadedBy.empty();
+  const bool oneColor = item.baseColorTexture == nullptr && !item.vertexColors;
+  const float brightest = std::max(std::max(item.baseColor.r, item.baseColor.g), item.baseColor.b);
   return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
           .textured = shaded && item.baseColorTexture != nullptr,
           .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
@@ -48,7 +73,10 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item, bool s
                       (item.casts ||
                        std::ranges::find(shading.alsoCasting, item.object) != shading.alsoCasting.end())),
           .cut = item.alphaMask != nullptr,
-          .colored = item.vertexColors && (shaded || item.alphaMask != nullptr)};
+          .colored = item.vertexColors && (shaded || item.alphaMask != nullptr),
+          .dark = shaded && oneColor && brightest < kDark,
+          .behind = std::ranges::any_of(
+              shadedBy, [&](const auto& light) { return reachesBehind(item, light); })};
 }
 
 void setMapUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading,
@@ -82,7 +110,7 @@ void setObjectUniforms(gl::Context& gl, gl::Program& program, const ReceiverShad
   }
   if (inputs == nullptr) return;
   glm::dmat4 relative = item.worldFromObject;
-  relative[3] -= glm::dvec4(inputs->lights.front()->centerWorld, 0.0);
+  relative[3] -= glm::dvec4(inputs->lights.front().centerWorld, 0.0);
   for (int column = 0; column < 4; ++column) {
     for (int row = 0; row < 3; ++row) relative[column][row] *= inputs->scale;
   }
@@ -101,6 +129,11 @@ glm::vec2 coneEdge(const scene::AreaLight& light) {
   return {slope, -outer * slope};
 }
 
+glm::dvec3 within(const glm::dvec3& place, double distance) {
+  const double length = glm::length(place);
+  return length > distance ? place * (distance / length) : place;
+}
+
 void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShading& shading, const View& view,
                       const gl::Rect& viewport, const ShadingInputs* inputs) {
   program.set(gl, shading.uniforms);
@@ -108,26 +141,40 @@ void setFrameUniforms(gl::Context& gl, gl::Program& program, const ReceiverShadi
                         1.0f / static_cast<float>(viewport.height));
   program.set(gl, "u_viewport", glm::vec4(scale, -scale * glm::vec2(viewport.x, viewport.y)));
   if (inputs == nullptr) return;
-  const glm::dvec3 origin = inputs->lights.front()->centerWorld;
+  const glm::dvec3 origin = inputs->lights.front().centerWorld;
   glm::vec4 position[4] = {}, emission[4] = {}, color[4] = {};
   for (std::size_t i = 0; i < 4; ++i) {
     if (i >= inputs->lights.size()) continue;
-    const scene::AreaLight& light = *inputs->lights[i];
+    const scene::AreaLight& light = inputs->lights[i];
     // Beyond that the falloff is at its limit everywhere.
     constexpr double kMostReference = 1024.0;
     const double reference = std::min(light.referenceDistance * inputs->scale, kMostReference);
+    constexpr double kDiffuse = 0.85;
     position[i] = glm::vec4(glm::vec3((light.centerWorld - origin) * inputs->scale), reference);
     const glm::vec2 cone = coneEdge(light);
     emission[i] = glm::vec4(glm::vec3(light.emission), cone.x);
-    color[i] = glm::vec4(light.color * static_cast<float>(light.intensity), cone.y);
+    color[i] = glm::vec4(light.color * static_cast<float>(kDiffuse * light.intensity), cone.y);
   }
   program.setArray(gl, "u_lightPosition", position, 4);
   program.setArray(gl, "u_lightEmission", emission, 4);
   program.setArray(gl, "u_lightColor", color, 4);
-  program.set(gl, "u_eye", glm::vec4(glm::vec3((view.eyeWorld - origin) * inputs->scale), 0.0f));
+  program.set(
+      gl, "u_eye",
+      glm::vec4(glm::vec3(within((view.eyeWorld - origin) * inputs->scale, inputs->farthestEye)), 0.0f));
 }
 
 }  // namespace
+
+ShadingInputs shadingInputs(std::span<const scene::AreaLight> lights, bool apart,
+                            std::span<const DrawItem> receivers, const device::Capabilities& capabilities) {
+  // Up to a light that is far from the others, numbers of fp16 have room for; a single one is at the origin.
+  const double reach = apart ? 1.0 : 128.0;
+  // From farther off everything is seen from one direction, and its square root overflows.
+  constexpr double kMostOfHalf = 16384.0;
+  ShadingInputs inputs{.lights = lights, .scale = reach * shadingScale(lights.front(), receivers)};
+  if (!capabilities.has(device::Capability::highp)) inputs.farthestEye = kMostOfHalf;
+  return inputs;
+}
 
 double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers) {
   double farthest = 0.0;
@@ -162,15 +209,19 @@ std::vector<framegraph::ResourceId> resourcesRead(const ReceiverShading& shading
 }
 
 namespace {
+bool inTwoDraws(const ReceiverShading& shading, const ReceiverRequest& request) {
+  return shading.skip == FilterSkip::stencil && request.output != ReceiverOutput::taps;
+}
+
 Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
-                                      ReceiverOutput output, const ReceiverKind& kind) {
+                                      const ReceiverRequest& request, const ReceiverKind& kind) {
   ReceiverPrograms result;
   std::vector<std::string> defines = shading.defines;
   if (kind.facets) defines.push_back("HS_FACET_NORMAL");
   if (kind.casting) defines.push_back("HS_CASTING_RECEIVER");
   if (kind.cut) defines.push_back("HS_ALPHA_MASK");
   if (kind.colored) defines.push_back("HS_VERTEX_COLORS");
-  for (std::string& define : outputDefines(output, kind.textured)) defines.push_back(std::move(define));
+  for (std::string& define : outputDefines(request, kind)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
     variant.insert(variant.end(), extra.begin(), extra.end());
@@ -180,9 +231,14 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
     return {};
   };
   // Tap counts must be those of the two draws together, so the count variant evaluates them in one.
-  if (shading.skip == FilterSkip::stencil && output != ReceiverOutput::taps) {
+  if (inTwoDraws(shading, request)) {
     if (Status s = link({"HS_PHASE_CLASSIFY"}, result.classify); !s) return s.error();
-    if (Status s = link({"HS_PHASE_FILTER"}, result.filter); !s) return s.error();
+    // Equal depths pass, whatever the first draw decided: where the depths are complete the second decides
+    // anew.
+    const bool classified = shading.filterTrustsClasses && !kind.casting && !request.depthIsComplete;
+    const Status s = classified ? link({"HS_PHASE_FILTER", "HS_CLASSIFIED"}, result.filter)
+                                : link({"HS_PHASE_FILTER"}, result.filter);
+    if (!s) return s.error();
   } else {
     if (Status s = link({}, result.whole); !s) return s.error();
   }
@@ -191,15 +247,17 @@ Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const Receiver
 }  // namespace
 
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
-                                            ReceiverOutput output, std::span<const DrawItem> items) {
+                                            const ReceiverRequest& request, std::span<const DrawItem> items) {
   ReceiverProgramSet set;
-  set.twoDraws = shading.skip == FilterSkip::stencil && output != ReceiverOutput::taps;
+  set.twoDraws = inTwoDraws(shading, request);
   const bool derivatives = programs.capabilities().has(device::Capability::derivatives);
+  const auto shadedBy =
+      request.output == ReceiverOutput::shaded ? request.lights : std::span<const scene::AreaLight>();
   for (const DrawItem& item : items) {
-    const ReceiverKind kind = kindOf(shading, item, output == ReceiverOutput::shaded, derivatives);
+    const ReceiverKind kind = kindOf(shading, item, shadedBy, derivatives);
     ReceiverPrograms& slot = set.of(kind);
     if (slot.whole || slot.filter) continue;
-    auto linked = linkPrograms(programs, shading, output, kind);
+    auto linked = linkPrograms(programs, shading, request, kind);
     if (!linked) return linked.error();
     slot = *linked;
   }
@@ -227,11 +285,12 @@ void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shad
   constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;
   device::UniformList ofItem;
+  const auto shadedBy = inputs == nullptr ? std::span<const scene::AreaLight>() : inputs->lights;
   const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
     if (target.depthsApart) {
       state.polygonOffset = glm::vec2(0.0f, static_cast<float>((&item - items.data()) % kMostSteps));
     }
-    const ReceiverKind kind = kindOf(shading, item, inputs != nullptr, derivatives);
+    const ReceiverKind kind = kindOf(shading, item, shadedBy, derivatives);
     gl::Program* program = programs.of(kind).*phase;
     if (program != current) {
       current = program;

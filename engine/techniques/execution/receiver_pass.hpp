@@ -6,6 +6,8 @@
 #pragma once
 
 #include <array>
+#include <limits>
+#include <span>
 
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
@@ -15,11 +17,15 @@
 namespace halfshadow::techniques {
 
 struct ShadingInputs {
-  std::vector<const scene::AreaLight*>
-      lights;  ///< one when visibility is evaluated in the same pass, else up to four
-  double scale =
-      1.0;  ///< of the world, by which all receivers are within 1 of the first light: a power of two
+  std::span<const scene::AreaLight>
+      lights;          ///< one when visibility is evaluated in the same pass, else up to four
+  double scale = 1.0;  ///< of the world, see shade.glsl: a power of two
+  double farthestEye = std::numeric_limits<double>::infinity();  ///< scaled; what is farther is brought near
 };
+/// apart: from visibilities on the screen.
+ShadingInputs shadingInputs(std::span<const scene::AreaLight> lights, bool apart,
+                            std::span<const DrawItem> receivers, const device::Capabilities& capabilities);
+/// By which all receivers are within 1 of the first light: a power of two.
 double shadingScale(const scene::AreaLight& first, std::span<const DrawItem> receivers);
 
 /// Lit colours from the visibilities of all lights that an earlier pass left in `visibility`.
@@ -38,17 +44,26 @@ struct ReceiverKind {
   bool casting = false;   ///< it is in the map itself, and the technique minds
   bool cut = false;       ///< alpha cuts holes into it
   bool colored = false;   ///< colours of its vertices are read
-  int index() const { return facets + 2 * textured + 4 * casting + 8 * cut + 16 * colored; }
+  bool dark = false;      ///< of one colour, so dark that the sky shows in it
+  bool behind = false;    ///< not all of it lies before all the lights' planes
+  int index() const {
+    return facets + 2 * textured + 4 * casting + 8 * cut + 16 * colored + 32 * dark + 64 * behind;
+  }
 };
 struct ReceiverProgramSet {
-  ReceiverPrograms byKind[32];
+  ReceiverPrograms byKind[128];
   bool twoDraws = false;
   ReceiverPrograms& of(const ReceiverKind& kind) { return byKind[kind.index()]; }
   const ReceiverPrograms& of(const ReceiverKind& kind) const { return byKind[kind.index()]; }
 };
+struct ReceiverRequest {
+  ReceiverOutput output = ReceiverOutput::visibility;
+  std::span<const scene::AreaLight> lights{};  ///< that shade: what none of them needs is not compiled in
+  bool depthIsComplete = false;                ///< of the target
+};
 /// Links what `items` need. Errors: shaderFailed.
 Result<ReceiverProgramSet> receiverPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
-                                            ReceiverOutput output, std::span<const DrawItem> items);
+                                            const ReceiverRequest& request, std::span<const DrawItem> items);
 
 /// What drawReceivers() draws with, whatever the item.
 gl::DrawState receiverState(const ReceiverTarget& target);

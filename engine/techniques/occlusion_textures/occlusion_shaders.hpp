@@ -64,7 +64,8 @@ inline std::vector<ShaderFamily> occlusionShaders(int mostBoxes) {
                          flag("HS_CONCENTRIC"),
                          castingAxis(nearest),
                          gridAxis(split),
-                         flag("HS_LAST_RECEIVERS", nearest)})});
+                         flag("HS_LAST_RECEIVERS", nearest)}),
+       receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
 }
 
 }  // namespace halfshadow::techniques

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <span>
 
 #include "techniques/core/caster_spread.hpp"
 #include "techniques/occlusion_textures/occlusion_shaders.hpp"
 #include "techniques/occlusion_textures/slice_passes.hpp"
+#include "techniques/parts/screen/visibility_parts.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -170,6 +172,8 @@ class OcclusionTextures final : public Technique {
   std::vector<Fallback> fallbacks() const override {
     return {shadedApart(),
             shadedApart({{"sub_lights", "1"}}, "slices of the whole light"),
+            shadedApart({{"sub_lights", "1"}, {"program_size", "parts"}},
+                        "slices of the whole light, two a draw"),
             {.text = "a filter as wide as the penumbra", .technique = "pcss-mip"}};
   }
   std::unique_ptr<LightPlanner> newPlanner() const override;
@@ -199,7 +203,15 @@ class OcclusionPlanner final : public LightPlanner {
     if (Status s = checkTextureUnits(scene, slices.textures.size(), choices.slicing); !s) return s;
     auto filtered = planSliceFilter(scene, plan, *space_, slices, choices.filter);
     if (!filtered) return filtered.error();
-    plan.shading = receiverShading(choices, *space_, slices, *filtered);
+    const std::size_t textures = filtered->textures.size();
+    plan.shading = receiverShading(choices, *space_, slices, *filtered, {0, textures});
+    const bool addsUp = !choices.paper() && choices.combine == "sum" && space_->grid.whole();
+    if (hasProgramsInParts(scene) && addsUp && textures > 1 && textures <= kMostVisibilityParts) {
+      std::vector<ReceiverShading> parts;
+      for (std::size_t i = 0; i < textures; ++i)
+        parts.push_back(receiverShading(choices, *space_, slices, *filtered, {i, 1}));
+      planVisibilityParts(scene, plan, std::move(parts));
+    }
     return {};
   }
 
@@ -226,16 +238,21 @@ class OcclusionPlanner final : public LightPlanner {
     shading.uniforms.set("u_tiles", glm::vec4(space.tiles, space.mapSize));
   }
 
+  struct TextureRange {
+    std::size_t first = 0, count = 0;
+  };
+  /// Of the slices in these of the textures.
   static ReceiverShading receiverShading(const Choices& choices, const SliceSpace& space,
-                                         const SliceTextures& slices, const FilteredSlices& filtered) {
-    const std::size_t slots = filtered.textures.size() * static_cast<std::size_t>(slices.slicesPerTexture);
+                                         const SliceTextures& slices, const FilteredSlices& filtered,
+                                         const TextureRange& range) {
+    const auto perTexture = static_cast<std::size_t>(slices.slicesPerTexture);
+    const std::size_t slots = range.count * perTexture;
     const double shorter = std::min(space.shape.x, space.shape.y);
     const int boxes = std::clamp(static_cast<int>(std::lround(1.0 / std::max(shorter, 1e-3))), 1, kMostBoxes);
     ReceiverShading shading;
     shading.fragmentFile = "occlusion/occlusion_textures.frag";
     shading.mapFromWorld = space.mapFromWorld;
-    shading.defines = {"HS_SLOTS " + std::to_string(slots),
-                       "HS_TEXTURES " + std::to_string(filtered.textures.size()),
+    shading.defines = {"HS_SLOTS " + std::to_string(slots), "HS_TEXTURES " + std::to_string(range.count),
                        "HS_BOXES " + std::to_string(boxes), filterDefine(choices.filter),
                        choices.combine == "product" ? "HS_COMBINE_PRODUCT"
                        : choices.combine == "max"   ? "HS_COMBINE_MAX"
@@ -257,12 +274,13 @@ class OcclusionPlanner final : public LightPlanner {
     }
     if (space.ratio1 == 0.0) shading.defines.push_back("HS_CONCENTRIC");
     addSubLights(space, choices.oneSearch, shading);
-    for (std::size_t i = 0; i < filtered.textures.size(); ++i) {
-      shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[i]});
+    for (std::size_t i = 0; i < range.count; ++i) {
+      shading.textures.push_back({.sampler = kSamplers[i], .resource = filtered.textures[range.first + i]});
     }
     const double ownBias = space.grid.whole() ? kOwnSurfaceBias : kOwnSurfaceBiasOfParts;
     std::vector<glm::vec4> borders;
-    for (const Slice& slice : space.slices) {
+    for (const Slice& slice :
+         std::span(space.slices).subspan(std::min(range.first * perTexture, space.slices.size()))) {
       borders.emplace_back(slice.low, slice.high, 1.0 / (slice.high - slice.low),
                            ownBias * choices.slicing.slices);
     }

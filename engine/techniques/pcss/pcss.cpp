@@ -29,7 +29,7 @@ class Pcss final : public Technique {
     return mapReceiverFamilies(
         "map/pcss.frag",
         {range("HS_SEARCH", settings()[0], {3, 9}), range("HS_SPREAD_KERNEL", settings()[1], {2, 9, 17}),
-         subLightAxis(), flag("HS_SHORT")},
+         castingAxis(), subLightAxis(), flag("HS_SHORT")},
         {.twoDraws = true});
   }
   std::vector<Fallback> fallbacks() const override { return penumbraFallbacks(); }

@@ -41,9 +41,10 @@ std::vector<SettingInfo> allSettings(const std::vector<std::unique_ptr<Technique
 
 std::vector<ShaderFamily> allShaderFamilies(const std::vector<std::unique_ptr<Technique>>& techniques) {
   // What several lights left on the screen is shaded for all techniques alike.
-  std::vector<ShaderFamily> families = {{"receiver/receiver.vert",
-                                         "receiver/shade_lights.frag",
-                                         {{{{"HS_SHADED"}}, {{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}}}}};
+  std::vector<ShaderAxis> axes = surfaceAxes(true);
+  axes.push_back({{{"HS_SHADED"}}, {{"HS_SHADED", "HS_BASE_COLOR_TEXTURE"}}});
+  std::vector<ShaderFamily> families = {
+      {"receiver/receiver.vert", "receiver/shade_lights.frag", std::move(axes)}};
   for (const auto& technique : techniques) {
     for (ShaderFamily& family : technique->shaderFamilies()) {
       if (std::ranges::find(families, family) == families.end()) families.push_back(std::move(family));

@@ -143,7 +143,7 @@ class ShadowWidth final : public Technique {
                                                           {{"HS_PAPER", "HS_ATTENUATION_TEXTURE"}}},
                                                          castingAxis({"!HS_PAPER", "!HS_POINT_LIGHT"})}),
          mapReceiverFamilies("width/shadow_width.frag", {flag("HS_CORNERS"), castingAxis(), splits},
-                             {.twoDraws = true})});
+                             {.twoDraws = true, .filterTrustsClasses = true})});
   }
   SubLightUse subLightUse(const Settings& settings) const override {
     return settings.choice("shadow-width.preset") == "paper" ? SubLightUse::none : SubLightUse::automatic;
@@ -180,6 +180,7 @@ class ShadowWidth final : public Technique {
       addHorizon(scene, depth, shading);
     else
       addPenumbraBounds(scene, plan, depth, shading);
+    shading.filterTrustsClasses = depth.subLights != nullptr;
     if (corners == WidthCorners::receivers) {
       shading.defines.push_back("HS_CORNERS");
       addWidthBoxes(shading, map);

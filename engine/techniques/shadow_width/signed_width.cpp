@@ -342,6 +342,11 @@ void addSignedWidth(const LightScene& scene, ReceiverShading& shading, const Lig
   if (map.tilesPerSide > 1) {
     shading.uniforms.set("u_widthTile", tileUniform(map));
     shading.uniforms.set("u_kernel", kernelUniform(scene, space, map));
+    const glm::dvec2 ofAtlas(layoutUniform(map).z, layoutUniform(map).w);
+    const glm::dvec2 perDepthTexel = ofAtlas / map.depthTexelsPerTexel;
+    shading.uniforms.set("u_widthSteps",
+                         glm::vec4(subLightSteps(depth) * glm::dvec4(perDepthTexel, perDepthTexel)));
+    shading.uniforms.set("u_widthFirst", glm::vec4(perDepthTexel, ofAtlas * static_cast<double>(map.margin)));
   }
   shading.uniforms.set("u_widthPlace", placeUniform(map));
   shading.uniforms.set("u_widthRange", range);

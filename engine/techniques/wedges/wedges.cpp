@@ -52,6 +52,14 @@ std::vector<WedgeGroup> wholeThenBatches(const outlines::WedgePieces& pieces) {
   return groups;
 }
 
+/// Of devices on which receivers' programs have room, if not those of volumes.
+std::vector<Fallback> wedgeFallbacks(const std::string& technique) {
+  return {shadedApart(),
+          shadedApart({{"program_size", "short"}, {technique + ".route", "receivers"}},
+                      "pieces that receivers cut a vertex at a time"),
+          {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
+}
+
 /// Among casters that were taken together what they cover as one says nothing.
 OwnSurfaces listedSurfaces(const WedgeVolumes& volumes) {
   return volumes.takenTogether ? OwnSurfaces::all : OwnSurfaces::hollow;
@@ -155,9 +163,7 @@ class AdditiveWedges final : public Technique {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
-  std::vector<Fallback> fallbacks() const override {
-    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
-  }
+  std::vector<Fallback> fallbacks() const override { return wedgeFallbacks(info().id); }
   std::unique_ptr<LightPlanner> newPlanner() const override { return std::make_unique<AdditivePlanner>(); }
 };
 
@@ -181,9 +187,7 @@ class ProbabilisticWedges final : public Technique {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return wedgeShaders(); }
-  std::vector<Fallback> fallbacks() const override {
-    return {shadedApart(), {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
-  }
+  std::vector<Fallback> fallbacks() const override { return wedgeFallbacks(info().id); }
   std::unique_ptr<LightPlanner> newPlanner() const override {
     return std::make_unique<ProbabilisticPlanner>();
   }

@@ -33,7 +33,9 @@ inline std::vector<ShaderFamily> vbufferShaders() {
                    "list/caster_blend.frag",
                    {blendAxis(), castingAxis(), flag("HS_SIDES", {"HS_CASTING_RECEIVER"})}},
                   fullscreen("list/vbuffer_add.frag")},
-                 listReceiverFamilies("list/wedges_blended.frag", ListedIn::always, {flag("HS_CENTRES")})});
+                 listReceiverFamilies("list/wedges_blended.frag", ListedIn::always,
+                                      {flag("HS_CENTRES"), {{}, {{"HS_HALF 0"}}, {{"HS_HALF 1"}}}}),
+                 receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
 }
 
 }  // namespace halfshadow::techniques

@@ -7,6 +7,7 @@
 
 #include "techniques/core/light_rooms.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
+#include "techniques/parts/screen/visibility_parts.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
 #include "techniques/wedges_blended/vbuffer_shaders.hpp"
 #include "techniques/wedges_blended/vbuffer_targets.hpp"
@@ -95,7 +96,10 @@ class WedgesBlended final : public Technique {
   std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
   std::vector<Fallback> fallbacks() const override {
     return {shadedApart(),
-            shadedApart({{"wedges-blended.cog", "off"}}, "no centres of gravity"),
+            shadedApart({{"wedges-blended.cog", "off"}, {"program_size", "short"}},
+                        "no centres of gravity, pieces that receivers cut a vertex at a time"),
+            shadedApart({{"wedges-blended.cog", "off"}, {"program_size", "parts"}},
+                        "no centres of gravity, two quadrants a draw"),
             {.text = "light cells, gathered from lists", .technique = "wedges-cells"}};
   }
   std::unique_ptr<LightPlanner> newPlanner() const override;
@@ -150,7 +154,15 @@ class BlendedPlanner final : public LightPlanner {
     lists_.provide(scene, plan);
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
     if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
+    if (hasProgramsInParts(scene)) planVisibilityParts(scene, plan, halvesOf(plan.shading));
     return {};
+  }
+
+  static std::vector<ReceiverShading> halvesOf(const ReceiverShading& whole) {
+    std::vector<ReceiverShading> halves(2, whole);
+    for (std::size_t i = 0; i < halves.size(); ++i)
+      halves[i].defines.push_back("HS_HALF " + std::to_string(i));
+    return halves;
   }
 
   WedgeRoutes routes_;

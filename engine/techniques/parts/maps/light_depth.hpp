@@ -77,6 +77,8 @@ ReceiverShading mapReceiverShading(const LightScene& scene, PassPlan& plan, cons
 /// Adds to a receiver program what horizon.glsl needs.
 void addHorizon(const LightDepth& depth, ReceiverShading& shading);
 
+/// Texels per unit of depth between the places in the maps of neighbours: xy along u, zw along v.
+glm::dvec4 subLightSteps(const LightDepth& depth);
 /// Adds to a receiver program what receiver_inputs.glsl needs of a split light; mapReceiverShading() does.
 void addSubLights(const LightDepth& depth, ReceiverShading& shading);
 /// Adds to a receiver program what horizon.glsl needs.

@@ -20,6 +20,11 @@ std::vector<std::string> tileDefines(const LightDepth& depth) {
           "HS_MAPS " + std::to_string(depth.subLights->grid.count())};
 }
 
+glm::dvec4 subLightSteps(const LightDepth& depth) {
+  const planner::SubLights& split = *depth.subLights;
+  return {texelsPerDepth(depth.space, split.stepU), texelsPerDepth(depth.space, split.stepV)};
+}
+
 void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
   if (depth.subLights == nullptr) return;
   const planner::SubLights& split = *depth.subLights;
@@ -27,10 +32,10 @@ void addSubLights(const LightDepth& depth, ReceiverShading& shading) {
   shading.defines.push_back("HS_SUB_LIGHTS_U " + std::to_string(split.grid.alongU));
   shading.defines.push_back("HS_SUB_LIGHTS_V " + std::to_string(split.grid.alongV));
   if (split.oneSearch) shading.defines.emplace_back("HS_ONE_SEARCH");
-  const glm::dvec2 stepU = texelsPerDepth(space, split.stepU), stepV = texelsPerDepth(space, split.stepV);
-  const glm::dvec2 spread =
-      glm::abs(stepU) * (0.5 * (split.grid.alongU - 1)) + glm::abs(stepV) * (0.5 * (split.grid.alongV - 1));
-  shading.uniforms.set("u_subLightStep", glm::vec4(stepU, stepV));
+  const glm::dvec4 steps = subLightSteps(depth);
+  const glm::dvec2 spread = glm::abs(glm::dvec2(steps)) * (0.5 * (split.grid.alongU - 1)) +
+                            glm::abs(glm::dvec2(steps.z, steps.w)) * (0.5 * (split.grid.alongV - 1));
+  shading.uniforms.set("u_subLightStep", glm::vec4(steps));
   shading.uniforms.set("u_subLights",
                        glm::vec4((1.0 - space.nearDistance / split.shared.alignedDistance) * space.depthUnit,
                                  std::max(spread.x, spread.y), 1.0 / depth.atlasSize, depth.tilesPerSide()));
@@ -45,6 +50,7 @@ void addHorizon(const LightScene& scene, const LightDepth& depth, ReceiverShadin
     return texelsPerDepth(depth.space, 2.0 * inPlane);
   };
   shading.uniforms.set("u_lightSides", glm::vec4(side(scene.light.halfU), side(scene.light.halfV)));
+  if (!hasShortPrograms(scene)) shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
   shading.itemUniforms = [](const DrawItem& item, device::UniformList& uniforms) {
     uniforms.set("u_receiver", glm::vec4(item.casts ? item.solidity : 0.0f, 0, 0, 0));
   };

@@ -39,11 +39,16 @@ std::vector<Attachment> wedgeTargets(ResourceId color, const ReceiverDepth& dept
           {.resource = depth.depthTest, .point = AttachmentPoint::depth, .initial = InitialContent::keep}};
 }
 
+void addClipDefines(const LightScene& scene, std::vector<std::string>& defines) {
+  defines.emplace_back("HS_WEDGE_CLIP");
+  if (hasShortPrograms(scene)) defines.emplace_back("HS_WEDGE_CHAIN");
+}
+
 void addVolumes(const LightScene& scene, PassPlan& plan, PlannedPass& pass, const Wedges& wedges,
                 std::vector<std::string> defines, std::span<const CasterRange> casters,
                 const device::BlendState& blend, float steps) {
   for (const WedgePart part : {WedgePart::beyond, WedgePart::beside}) {
-    if (part == WedgePart::beside) defines.push_back("HS_WEDGE_CLIP");
+    if (part == WedgePart::beside) addClipDefines(scene, defines);
     PlannedDraw draw{.program =
                          plan.addProgram({"wedge/wedge_volume.vert", "wedge/wedge_piece.frag", defines})};
     draw.uniforms.set("u_wedgeSteps", glm::vec4(steps, wedges.volumes->trimmed ? 1.0f : 0.0f, 0, 0));

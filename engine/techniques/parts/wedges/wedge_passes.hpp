@@ -22,6 +22,8 @@ struct Wedges {
   const WedgeVolumes* volumes = nullptr;
   ReceiverDepth depth;
 };
+/// Of programs that draw WedgePart::beside.
+void addClipDefines(const LightScene& scene, std::vector<std::string>& defines);
 /// Adds both parts of the casters' volumes, drawn by wedge_piece.frag: `steps` of full coverage, blended.
 void addVolumes(const LightScene& scene, PassPlan& plan, PlannedPass& pass, const Wedges& wedges,
                 std::vector<std::string> defines, std::span<const CasterRange> casters,

@@ -7,6 +7,7 @@
 #include <cstddef>
 
 #include "base/keys.hpp"
+#include "techniques/parts/wedges/wedge_passes.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -233,7 +234,7 @@ void addReceiverWedges(const LightScene& scene, PassPlan& plan, PlannedPass& pas
     std::vector<std::string> defines = how.defines;
     if (cut) defines.push_back("HS_WEDGE_FOOTPRINT");
     if (cut && snapsCoarsely(scene.capabilities)) defines.push_back("HS_WEDGE_EXACT");
-    if (draw.part == WedgePart::beside) defines.push_back("HS_WEDGE_CLIP");
+    if (draw.part == WedgePart::beside) addClipDefines(scene, defines);
     PlannedDraw planned{.program = plan.addProgram(
                             {"wedge/wedge_receiver.vert", "wedge/wedge_receiver.frag", std::move(defines)})};
     device::UniformList& uniforms = planned.uniforms;

@@ -10,7 +10,8 @@
 namespace halfshadow::techniques {
 
 inline std::vector<ShaderFamily> wedgeShaders() {
-  const std::vector<ShaderAxis> piece = {flag("HS_WEDGE_CLIP"), flag("HS_WEDGE_MULTIPLY")};
+  const std::vector<ShaderAxis> piece = {{{}, {{"HS_WEDGE_CLIP"}}, {{"HS_WEDGE_CLIP", "HS_WEDGE_CHAIN"}}},
+                                         flag("HS_WEDGE_MULTIPLY")};
   const ShaderAxis footprint = {
       {}, {{"HS_WEDGE_FOOTPRINT"}}, {{"HS_WEDGE_FOOTPRINT", "HS_WEDGE_EXACT"}, {"!HS_NO_HIGHP"}}};
   return joined({{receiverDepthShader(),
