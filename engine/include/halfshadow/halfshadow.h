@@ -5,8 +5,8 @@
  * units, ownership and errors are the same.
  *
  * Every struct begins with `struct_size`: set it to sizeof of the struct. All other fields may be zero; zero
- * means the default where one is given. An engine that is null is refused. Messages and reports live until the engine's next call. All calls
- * come from the thread on which the OpenGL ES context is current.
+ * means the default where one is given. An engine that is null is refused. Messages and reports live until
+ * the engine's next call. All calls come from the thread on which the OpenGL ES context is current.
  */
 #ifndef HALFSHADOW_H
 #define HALFSHADOW_H
