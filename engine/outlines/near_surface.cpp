@@ -321,6 +321,16 @@ const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, So
   return *made;
 }
 
+const FacetTrees& NearSurfaces::treesOf(const NearSurface& surface) {
+  const auto [found, isNew] = trees_.try_emplace(&surface);
+  if (isNew) found->second = facetTrees(surface);
+  return found->second;
+}
+
+int lightSideOf(const NearSurface::Facet& facet, const SubLight& light) {
+  return sideOf(facet.plane, light);
+}
+
 std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
                                         const SubLight& light, bool turnedAway) {
   std::vector<std::uint32_t> side;
@@ -330,7 +340,7 @@ std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<co
 }
 
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
-                   std::vector<std::uint32_t>& result) {
+                   std::vector<std::uint32_t>& result, std::size_t most) {
   result.clear();
   const OuterSides outer(kWholeLight, receivers);
   const auto inReach = [&](const auto& what) {
@@ -341,6 +351,7 @@ void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
     for (std::uint32_t f = patch.firstFacet; f < patch.firstFacet + patch.facetCount; ++f) {
       if (inReach(surface.facets[f])) result.push_back(f);
     }
+    if (result.size() > most) return;
   }
 }
 

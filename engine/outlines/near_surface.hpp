@@ -10,10 +10,12 @@
 #include <array>
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "outlines/facet_tree.hpp"
 #include "outlines/receiver_tiles.hpp"
 #include "outlines/tangent_space.hpp"
 #include "scene/light_silhouettes.hpp"
@@ -77,6 +79,8 @@ class NearSurfaces {
   NearSurfaces(std::span<const scene::PlacedCaster> casters, const ListSpace& space, double minHeight);
   /// `object`: index of the caster. The reference lasts as long as this object.
   const NearSurface& of(std::uint32_t object, std::uint32_t part, Solid solid = Solid::within);
+  /// Of a surface that of() gave; made when first asked for. The reference lasts as long as this object.
+  const FacetTrees& treesOf(const NearSurface& surface);
   const ListSpace& space() const { return space_; }
   /// For ReceiverSet::tile.
   std::uint64_t nextTile() { return ++tile_; }
@@ -89,6 +93,7 @@ class NearSurfaces {
   static constexpr std::size_t kSolids = 3;
   std::vector<std::size_t> firstPart_;              ///< of each caster, among the parts of all
   std::vector<std::unique_ptr<NearSurface>> made_;  ///< by part and Solid; asked for in each tile
+  std::map<const NearSurface*, FacetTrees> trees_;
 };
 
 /// Which facets stand for the caster. Of a closed surface every ray from a receiver to the light leaves as
@@ -107,13 +112,18 @@ struct ReceiverSet {
   std::uint64_t tile = 0;  ///< a number of its own for each set with patches
 };
 
+/// Where a part of the light lies of a facet's plane: 1 all on its outer side, -1 all on the inner, 0 some on
+/// either.
+int lightSideOf(const NearSurface::Facet& facet, const SubLight& light);
+
 /// Those of a sheet's facets that look towards the light's centre, or those that look away.
 std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
                                         const SubLight& light, bool turnedAway);
 
-/// Facets that can cover some of the light for some receiver in the box, or more. Replaces `result`.
+/// Facets that can cover some of the light for some receiver in the box, or more; stops when there are more
+/// than `most`. Replaces `result`.
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
-                   std::vector<std::uint32_t>& result);
+                   std::vector<std::uint32_t>& result, std::size_t most = ~std::size_t{0});
 
 /// Of `candidates` (facets), those that can cover some of the light's part for some of the receivers.
 /// Replaces `result`.

@@ -23,6 +23,7 @@ struct BlockCasters {
     FacetChoice choice = FacetChoice::asLightSees;
     std::vector<std::uint32_t> facets;    ///< none where another entry of the same surface has them
     const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
+    bool dense = false;                   ///< more facets are in reach than a list should hold
   };
   struct Partial {
     CasterLoops loops;
@@ -37,9 +38,10 @@ struct BlockCasters {
 class BlockFacets {
  public:
   void clear() { facets_.clear(); }
-  std::span<const std::uint32_t> of(const NearSurface& surface, const TangentBox& receivers) {
+  std::span<const std::uint32_t> of(const NearSurface& surface, const TangentBox& receivers,
+                                    std::size_t most) {
     const auto [found, isNew] = facets_.try_emplace(&surface);
-    if (isNew) facetsInReach(surface, receivers, found->second);
+    if (isNew) facetsInReach(surface, receivers, found->second, most);
     return found->second;
   }
 
@@ -82,6 +84,34 @@ void appendBehindFacet(std::uint8_t subLight, std::vector<ListRecord>& records) 
   records[records.size() - 4].startsLoop = true;
   records.back().closesLoop = true;
   records.back().end = ListRecord::End::caster;
+}
+
+/// Appends what leads into trees, which fragments walk, where they are in reach; whether some are.
+bool appendTrees(const std::vector<FacetTree>& trees, const SubLight& light, const TangentBox& receivers,
+                 std::uint8_t subLight, TileLists& lists) {
+  const std::size_t before = lists.records.size();
+  const OuterSides outer(light, receivers);
+  for (const FacetTree& tree : trees) {
+    const FacetTree::Node& all = tree.nodes.front();
+    if (all.high.z <= receivers.iLow || outer.code(all.low, all.high) != 0) continue;
+    auto number = std::ranges::find(lists.trees, &tree) - lists.trees.begin();
+    if (number == std::ssize(lists.trees)) lists.trees.push_back(&tree);
+    lists.records.push_back(
+        {.subLight = subLight, .behindFacet = ListRecord::kTree, .tree = static_cast<std::uint32_t>(number)});
+  }
+  if (lists.records.size() == before) return false;
+  lists.records.back().end = ListRecord::End::caster;
+  return true;
+}
+
+/// The sides of a sheet cover the same ground.
+bool appendTrees(const FacetTrees& trees, const SubLight& light, const TangentBox& receivers,
+                 std::uint8_t subLight, TileLists& lists) {
+  const bool some = appendTrees(trees.towards, light, receivers, subLight, lists);
+  const std::size_t firstSide = lists.records.size() - 1;
+  const bool others = appendTrees(trees.away, light, receivers, subLight, lists);
+  if (some && others) lists.records[firstSide].firstSide = true;
+  return some || others;
 }
 
 /// The box around all non-empty boxes of a block of tiles.
@@ -136,8 +166,16 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
                                                                           : FacetChoice::asLightSees,
                             .around = around};
     if (near.surface->facets.empty()) return false;
-    const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers);
+    const std::size_t most =
+        near.choice == FacetChoice::asReceiversSee ? receiver.mostOwnFacets : receiver.mostOthersFacets;
+    const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers, most);
     if (all.empty()) return true;
+    if (all.size() > most) {
+      near.dense = std::ranges::none_of(
+          result.near, [&](const BlockCasters::Near& other) { return other.surface == near.surface; });
+      result.near.push_back(std::move(near));
+      return true;
+    }
     // The two sides of a sheet cover the same ground twice: they are two casters among its surfaces, too.
     const bool sided = !near.surface->closed && near.choice == FacetChoice::asLightSees;
     const bool known = std::ranges::any_of(result.near, [&](const BlockCasters::Near& other) {
@@ -239,7 +277,9 @@ bool castersApart(std::span<const ListRecord> list, const TangentBox& receivers)
 }
 
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
-                  const ReceiverSet& set, ListedEdges edges, std::vector<ListRecord>& records) {
+                  const ReceiverSet& set, const ListedReceiver& receiver, ListedEdges edges,
+                  NearSurfaces& surfaces, TileLists& lists) {
+  std::vector<ListRecord>& records = lists.records;
   const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
   thread_local CasterLoops simplified;
@@ -259,9 +299,10 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
           partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
       add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
     }
+    const NearSurface* treed = nullptr;      // the last surface whose trees are in the list
     const NearSurface* firstSide = nullptr;  // of the sheet whose first side ends with the last record
     for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
-      const auto& [caster, surface, choice, facets, around] = block[s].near[c];
+      const auto& [caster, surface, choice, facets, around, dense] = block[s].near[c];
       const std::size_t own = records.size();
       if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
         full = true;
@@ -282,12 +323,24 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
           if (list.casters < 255) ++list.casters;
           continue;
         }
+        const auto leadIntoTrees = [&] {
+          treed = surface;
+          const bool some = appendTrees(surfaces.treesOf(*surface), loops.light, receivers,
+                                        static_cast<std::uint8_t>(s), lists);
+          if (some && list.casters < 255) ++list.casters;
+        };
+        if (dense) leadIntoTrees();
+        if (surface == treed) continue;
         add(simplify(*surface, facets, loops.light,
                      isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
         // The sides of a sheet cover the same ground.
         const bool sided = !surface->closed && !isOwn && records.size() > own;
         if (sided && firstSide == surface) records[own - 1].firstSide = true;
         if (sided) firstSide = surface;
+        if (!isOwn && records.size() - own > receiver.mostOthersRecords) {
+          records.resize(own);
+          leadIntoTrees();
+        }
       }
     }
     if (full) {
@@ -300,7 +353,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
   }
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
   list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
-    return record.behindFacet == ListRecord::kVertex && record.ti.z < receivers.iHigh;
+    return record.behindFacet == ListRecord::kTree ||
+           (record.behindFacet == ListRecord::kVertex && record.ti.z < receivers.iHigh);
   });
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
                ((list.casters == 1 && records.back().behindFacet == ListRecord::kVertex) ||
@@ -337,7 +391,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
           lists.tiles[tile] =
               tileList(subLights, block,
                        {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
-                       edges, lists.records);
+                       receiver, edges, surfaces, lists);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

@@ -25,7 +25,9 @@ struct ListRecord {
   /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane
   /// of the receiver's own facet.
   std::int8_t behindFacet = kVertex;
-  static constexpr std::int8_t kVertex = -1;
+  /// kTree: a tree is walked here; `tree` in TileLists::trees.
+  static constexpr std::int8_t kVertex = -1, kTree = 3;
+  std::uint32_t tree = 0;
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
   /// With End::caster: what follows is the other side of the same sheet, and the larger of both counts.
   bool firstSide = false;
@@ -52,8 +54,9 @@ struct TileLists {
   bool oneSided = false;         ///< some record is
   bool amongReceivers = false;   ///< some tile is
   bool behindFacets = false;     ///< some record is of what lies behind a facet
-  bool sides = false;            ///< some record ends a first side
-  bool cutShort = false;         ///< there would be too many records: the rest is missing
+  std::vector<const FacetTree*> trees;
+  bool sides = false;     ///< some record ends a first side
+  bool cutShort = false;  ///< there would be too many records: the rest is missing
 };
 
 /// Which edges of a simplified loop are listed.
@@ -66,6 +69,10 @@ inline constexpr std::uint32_t kNoObject = ~0u;
 
 struct ListedReceiver {
   std::uint32_t ownObject = kNoObject;  ///< the receiver as a caster; then its tiles have patches
+  /// Where more of its own, or of another's, facets are in reach of some tiles, or more records would stand
+  /// for the other's, fragments walk the surface's trees.
+  std::size_t mostOwnFacets = ~std::size_t{0}, mostOthersFacets = ~std::size_t{0};
+  std::size_t mostOthersRecords = ~std::size_t{0};
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are

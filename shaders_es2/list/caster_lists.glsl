@@ -87,12 +87,18 @@ void hs_findList() {
 #endif
 }
 
+#ifdef HS_ONE_SIDED
+void hs_roundFacet() {
+  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + 2.0 * u_listPlace.w * abs(hs_receiver));
+}
+#endif
+
 // Goes to the first vertex of the fragment's list. Returns what hs_nextVertex() adds to its vertices.
 HS_HIGHP vec3 hs_enterList(out HS_HIGHP vec2 at) {
   at = hs_vertexAt(hs_head.r, hs_head.g + 256.0 * hs_head.b);
   HS_HIGHP vec3 center = hs_beginList(at);
 #ifdef HS_ONE_SIDED
-  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + 2.0 * u_listPlace.w * abs(hs_receiver));
+  hs_roundFacet();
 #endif
   return hs_originFrom(center, hs_receiver, hs_away);
 }

@@ -141,6 +141,22 @@ void hs_joinSides(inout HS_Cells covered, inout HS_Cells other, HS_HIGHP float f
 }
 #endif
 
+#ifdef HS_TREES
+// Whether no cell has more to lose than a picture shows.
+#define HS_Left HS_Cells
+#define HS_Covered HS_Cells
+bool hs_hidesAll(HS_Cells visible, HS_Cells covered) {
+#if HS_CELLS == 32
+  HS_HIGHP vec4 left = max(visible.lower * (1.0 - covered.lower), visible.upper * (1.0 - covered.upper));
+#elif HS_CELLS == 16
+  HS_HIGHP vec4 left = visible * (1.0 - covered);
+#else
+  HS_HIGHP vec4 left = vec4(visible.x * (1.0 - covered.x));
+#endif
+  return max(max(left.x, left.y), max(left.z, left.w)) < 0.002;
+}
+#endif
+
 // Visible share of the square; all cells become visible again where `take` is 1.
 HS_HIGHP float hs_takeSquare(inout HS_Cells visible, HS_HIGHP float take) {
 #if HS_CELLS == 32

@@ -12,6 +12,16 @@ HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
 #endif
 }
 
+#ifdef HS_TREES
+HS_HIGHP vec3 hs_lightWindow(HS_HIGHP vec2 side) {
+#ifdef HS_WHOLE_LIGHT
+  return vec3(0.0, 0.0, 1.0);
+#else
+  return vec3(0.5 * side, 0.5);
+#endif
+}
+#endif
+
 // `projected`, `tags`: of hs_nextVertex().
 #ifndef HS_CASTING_RECEIVER
 // For receivers behind every vertex.

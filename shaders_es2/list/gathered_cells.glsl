@@ -49,7 +49,15 @@ HS_HIGHP float hs_gatheredLight() {
 #endif
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
+#ifdef HS_TREES
+    if (tags.tree > 0.5) {
+      hs_walkTree(projected, tags.side, visible, cutWalk, covered);
+    } else {
+      hs_cutWalk(cutWalk, covered, projected, tags);
+    }
+#else
     hs_cutWalk(cutWalk, covered, projected, tags);
+#endif
 #ifdef HS_SIDES
     hs_joinSides(covered, otherSide, step(HS_FOLD_AT, tags.ends), tags.firstSide);
 #endif

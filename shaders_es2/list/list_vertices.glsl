@@ -82,6 +82,9 @@ struct HS_Tags {
   HS_HIGHP float firstSide;
 #endif
   HS_HIGHP vec2 side;
+#ifdef HS_TREES
+  HS_HIGHP float tree;  // 1: what was read is where a tree begins
+#endif
 };
 
 #if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
@@ -134,6 +137,10 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   tags.starts -= tags.firstSide;
 #endif
   at = hs_recordAfter(at);
+#ifdef HS_TREES
+  tags.tree = behind * step(2.5, 256.0 * value.x);
+  if (tags.tree > 0.5) return floor(vec3(first.zw, second.x) * 255.0 + 0.5);
+#endif
 #ifdef HS_BEHIND_FACETS
   if (behind > 0.5) return hs_behindFacet(256.0 * value.x);
 #endif

@@ -103,6 +103,12 @@ void hs_addSums(inout HS_Sums sums, HS_Sums others) {
 }
 #endif
 
+#ifdef HS_TREES
+#define HS_Left float
+#define HS_Covered HS_Sums
+bool hs_hidesAll(float left, HS_Sums sums) { return min(min(sums.share.x, sums.share.y), min(sums.share.z, sums.share.w)) >= 1.0; }
+#endif
+
 // Means of c = clamp(x, 0, 1) and of c² / 2 while x runs evenly from x0 to x1. Short runs and runs outside
 // take the middle: there the quotient would cancel.
 #ifdef HS_CENTRES

@@ -3,6 +3,10 @@
 // Adds the edges of silhouette loops to what a caster occludes, vertex by vertex. Needs vbuffer_edges.glsl and
 // list_vertices.glsl.
 
+#ifdef HS_TREES
+HS_HIGHP vec3 hs_lightWindow(HS_HIGHP vec2 side) { return vec3(0.0, 0.0, 1.0); }
+#endif
+
 // `projected`, `tags`: of hs_nextVertex().
 #ifndef HS_CASTING_RECEIVER
 // For receivers behind every vertex.

@@ -11,6 +11,7 @@
 #define HS_SUB_LIGHTS 1.0
 #include "list/caster_lists.glsl"
 #include "list/vbuffer_walk.glsl"
+#include "list/facet_tree.glsl"
 
 float halfshadow_class() {
   hs_findList();
@@ -92,11 +93,19 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
     for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
+#ifdef HS_TREES
+      if (tags.tree > 0.5) {
+        hs_walkTree(projected, tags.side, 1.0, walk, sums);
+      } else {
+        hs_cutWalk(walk, sums, projected, tags);
+      }
+#else
+      hs_cutWalk(walk, sums, projected, tags);
+#endif
       ends = tags.ends;
 #ifdef HS_SIDES
       sideEnds = tags.firstSide;
 #endif
-      hs_cutWalk(walk, sums, projected, tags);
       if (ends > 0.5) break;
     }
 #ifdef HS_SIDES

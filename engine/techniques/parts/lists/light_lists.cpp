@@ -20,6 +20,10 @@ constexpr double kEvenSlope = 2.0, kSqueezedFrom = 16.0;
 /// Four times as many tiles have at most this many times the records.
 constexpr std::size_t kFinerGrowth = 5;
 
+/// Facets of one surface among which receivers of a list may stand: its own, and others'. Where there are
+/// more, fragments walk its tree.
+constexpr std::size_t kMostOwnFacets = 8, kMostOthersFacets = 4096, kMostOthersRecords = 400;
+
 /// Lists are made so often at most, each time with larger tiles.
 constexpr int kMostAttempts = 8;
 
@@ -192,7 +196,12 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
         cached.revision = item.revision;
         cached.seenFromBehind = seenFromBehind;
         cached.casts = item.casts;
-        const outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item)};
+        outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item)};
+        if (highp) {
+          receiver.mostOwnFacets = kMostOwnFacets;
+          receiver.mostOthersFacets = kMostOthersFacets;
+          receiver.mostOthersRecords = kMostOthersRecords;
+        }
         cached.tiles = receiverTiles({.mesh = item.sourceMesh,
                                       .worldFromObject = item.worldFromObject,
                                       .closed = !seenFromBehind,
@@ -249,7 +258,9 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
   shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
   const bool oneSided =
       std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.oneSided; });
-  if (oneSided) shading.defines.push_back("HS_ONE_SIDED");
+  const bool trees = std::ranges::any_of(
+      receivers_, [](const auto& receiver) { return !receiver.second.lists.trees.empty(); });
+  if (oneSided || trees) shading.defines.push_back("HS_ONE_SIDED");
   shading.textures.push_back(
       {.sampler = "u_cellTiles", .own = addList(plan, "list tiles", tiles_, imageKey_)});
   shading.textures.push_back(
@@ -262,6 +273,7 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
   const bool sides =
       std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.sides; });
   if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
+  if (trees) shading.defines.push_back("HS_TREES");
   if (sides) shading.defines.push_back("HS_SIDES");
   if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
   shading.defines.push_back("HS_LISTS");

@@ -20,6 +20,7 @@ inline std::vector<ShaderFamily> listReceiverFamilies(const std::string& fragmen
   axes.push_back(castingAxis({"HS_LISTS"}));
   for (const char* macro : {"HS_ONE_SIDED", "HS_BEHIND_FACETS", "HS_SIDES", "HS_AMONG_RECEIVERS"})
     axes.push_back(flag(macro, {"HS_LISTS"}));
+  axes.push_back(flag("HS_TREES", {"HS_LISTS", "HS_ONE_SIDED", "HS_BEHIND_FACETS"}));
   return receiverFamilies(fragmentFile, {.twoDraws = always, .forward = false}, std::move(axes));
 }
 

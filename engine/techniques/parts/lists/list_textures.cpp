@@ -4,16 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <ranges>
+
+#include "techniques/parts/lists/facet_tree_texels.hpp"
 
 namespace halfshadow::techniques {
 namespace {
 /// Widest grid plus room: tiles of several receivers stand side by side.
 constexpr int kTileImageWidth = 1024;
 
-/// Exponents of steps, as stored.
-constexpr int kExponentBias = 128;
-/// A centre is counted in so many steps.
-constexpr float kCenterSteps = 256.0f;
 /// The largest factor of a step: the square of a byte.
 constexpr float kLargestScale = 255.0f * 255.0f;
 
@@ -69,37 +69,8 @@ EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) 
   least.z = std::max(least.z, std::min(along / kUneven, farthestOff.z / 32766.0f));
   for (int k = 0; k < 2; ++k)
     least[k] = std::max(least[k], std::min(least.z / kUneven, farthestOff[k] / 32766.0f));
-  // The centre must be in reach. That step is what single precision knows of such coordinates.
-  least = glm::max(least, glm::abs(placed.center) / (32766.0f * kCenterSteps));
-  const auto stepAbove = [](float length) {
-    const int exponent = static_cast<int>(std::ceil(std::log2(std::max(length, 1e-36f))));
-    return std::exp2(static_cast<float>(std::clamp(exponent, -kExponentBias + 4, kExponentBias - 2)));
-  };
-  const float stepT = stepAbove(std::max(least.x, least.y));
-  placed.step = {stepT, stepT, stepAbove(least.z)};
-  // With eleven bits, which half precision has too; vertices are counted from there, whatever it is.
-  for (int k = 0; k < 3; ++k) {
-    const float code = std::round(placed.center[k] / (kCenterSteps * placed.step[k]));
-    const float unit =
-        std::exp2(std::max(std::ceil(std::log2(std::max(std::abs(code), 1.0f))) - 11.0f, 0.0f));
-    placed.center[k] = std::round(code / unit) * unit * kCenterSteps * placed.step[k];
-  }
+  placed = {placementAbout(placed.center, least)};
   return placed;
-}
-
-void putCode(float value, std::uint8_t* texels) {
-  // To the nearest whole number without a call of the library, in double so that no half is lost.
-  const double clamped = std::clamp(value, -32768.0f, 32767.0f);
-  const int code = static_cast<int>(clamped + (clamped < 0.0 ? -0.5 : 0.5)) + 32768;
-  texels[0] = static_cast<std::uint8_t>(code >> 8);
-  texels[1] = static_cast<std::uint8_t>(code & 255);
-}
-
-void encodePlacement(const EncodedLists::Placed& placed, std::uint8_t* texels) {
-  const glm::vec3 center = placed.center / (kCenterSteps * placed.step);
-  for (int k = 0; k < 3; ++k) putCode(center[k], texels + 2 * k);
-  texels[6] = static_cast<std::uint8_t>(std::ilogb(placed.step.x) + kExponentBias);
-  texels[7] = static_cast<std::uint8_t>(std::ilogb(placed.step.z) + kExponentBias);
 }
 
 /// `perStep`: 1 over the placement's steps, which are powers of two.
@@ -121,6 +92,38 @@ void encodeRecord(const outlines::ListRecord& record, const EncodedLists::Placed
                                         (isVertex ? 0 : 4) | static_cast<int>(record.end));
   texels[7] = static_cast<std::uint8_t>(scale);
 }
+
+/// A record that leads into a tree which begins at record `first`.
+void encodeCall(const outlines::ListRecord& record, std::size_t first, std::uint8_t* texels) {
+  encodeRecord(record, {}, glm::vec3(1.0f), texels);
+  texels[2] = static_cast<std::uint8_t>(first % kRecordsPerRow);
+  texels[3] = static_cast<std::uint8_t>(first / kRecordsPerRow & 255);
+  texels[4] = static_cast<std::uint8_t>(first / kRecordsPerRow >> 8);
+}
+
+/// Trees that some list leads into, each once, and the first record of each.
+class PlacedTrees {
+ public:
+  explicit PlacedTrees(std::span<const ReceiverLists> receivers) {
+    for (const ReceiverLists& receiver : receivers) {
+      for (const outlines::FacetTree* tree : receiver.lists->trees) {
+        if (!first_.try_emplace(tree, count_).second) continue;
+        order_.push_back(tree);
+        count_ += recordsOf(*tree);
+      }
+    }
+  }
+  std::size_t recordCount() const { return count_; }
+  std::size_t firstOf(const outlines::FacetTree* tree) const { return first_.at(tree); }
+  void encode(std::uint8_t* texels) const {
+    for (const outlines::FacetTree* tree : order_) encodeTree(*tree, texels + firstOf(tree) * kRecordBytes);
+  }
+
+ private:
+  std::map<const outlines::FacetTree*, std::size_t> first_;
+  std::vector<const outlines::FacetTree*> order_;
+  std::size_t count_ = 0;
+};
 
 std::vector<std::uint8_t> blankTexels(const ListImage& image) {
   return std::vector<std::uint8_t>(static_cast<std::size_t>(image.width) *
@@ -146,7 +149,8 @@ ListImage placeTiles(std::span<const ReceiverLists> receivers, std::vector<glm::
 
 bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedLists& result) {
   result = {};
-  std::size_t recordCount = 0;
+  const PlacedTrees trees(receivers);
+  std::size_t recordCount = trees.recordCount();
   for (const ReceiverLists& receiver : receivers) {
     recordCount += receiver.lists->records.size();
     for (const outlines::TileList& list : receiver.lists->tiles) recordCount += list.count > 0;
@@ -162,7 +166,8 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   std::vector<std::uint8_t> recordTexels = blankTexels(result.records);
   result.tiles = placeTiles(receivers, result.firstTexel);
   std::vector<std::uint8_t> tileTexels = blankTexels(result.tiles);
-  std::size_t next = 0;
+  trees.encode(recordTexels.data());
+  std::size_t next = trees.recordCount();
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const ReceiverLists& receiver = receivers[r];
     for (std::size_t t = 0; t < receiver.lists->tiles.size(); ++t) {
@@ -182,10 +187,16 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
       const auto records = std::span(receiver.lists->records).subspan(list.first, list.count);
       placed = placementOf(records);
       placed.firstRecord = static_cast<std::uint32_t>(next);
-      encodePlacement(placed, &recordTexels[next++ * 8]);
+      encodePlacement(placed, &recordTexels[next++ * kRecordBytes]);
       const glm::vec3 perStep = 1.0f / placed.step;
-      for (const outlines::ListRecord& record : records)
-        encodeRecord(record, placed, perStep, &recordTexels[next++ * 8]);
+      for (const outlines::ListRecord& record : records) {
+        std::uint8_t* const texels = &recordTexels[next++ * kRecordBytes];
+        if (record.behindFacet == outlines::ListRecord::kTree) {
+          encodeCall(record, trees.firstOf(receiver.lists->trees[record.tree]), texels);
+        } else {
+          encodeRecord(record, placed, perStep, texels);
+        }
+      }
     }
   }
   result.records.rgba = std::make_shared<const std::vector<std::uint8_t>>(std::move(recordTexels));

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "outlines/tile_lists.hpp"
+#include "techniques/parts/lists/list_codes.hpp"
 
 namespace halfshadow::techniques {
 
@@ -33,9 +34,8 @@ struct EncodedLists {
   std::size_t rows = 0;                ///< of the records
   std::vector<glm::ivec2> firstTexel;  ///< of each receiver's tiles
   /// Of each list, receiver by receiver: in records, and how it is stored; none where there is no list.
-  struct Placed {
+  struct Placed : ListPlacement {
     std::uint32_t firstRecord = 0;
-    glm::vec3 center{0.0f}, step{1.0f};
   };
   std::vector<Placed> lists;
 };
