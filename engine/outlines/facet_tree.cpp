@@ -15,6 +15,9 @@ constexpr std::size_t kLeafFacets = 2;
 /// Facets from which on a box may have a contour, and how many times fewer vertices that must have.
 constexpr std::size_t kContourFacets = 6;
 constexpr std::size_t kContourShare = 2;
+/// Vertices of a tree's contours, and one more for each loop: with its facets and boxes what leads over all
+/// of it still fits 14 bits in records.
+constexpr std::size_t kMostContourVertices = 8192;
 
 enum class LightSide { outer, inner };
 
@@ -58,6 +61,7 @@ class TreeBuilder {
       divide(facets.subspan(half));
       return;
     }
+    contourVertices_ = 0;
     addNode(facets, trees_.emplace_back());
   }
 
@@ -110,7 +114,10 @@ class TreeBuilder {
         ++edges;
       }
     }
-    if (edges * kContourShare > 3 * facets.size()) return;
+    // A loop has three edges or more.
+    const std::size_t most = edges + edges / 3;
+    if (edges * kContourShare > 3 * facets.size() || contourVertices_ + most > kMostContourVertices) return;
+    contourVertices_ += most;
     // As many edges enter a vertex as leave it: a walk ends where it began.
     std::vector<std::uint32_t> loop;
     while (!next_.empty()) {
@@ -133,6 +140,7 @@ class TreeBuilder {
   LightSide lightSide_;
   std::vector<std::uint32_t> memberOf_;  ///< of each facet, the last set that had it
   std::uint32_t set_ = 0;
+  std::size_t contourVertices_ = 0;                   ///< of the tree that is being made
   std::multimap<std::uint32_t, std::uint32_t> next_;  ///< boundary edges of a set
   std::vector<FacetTree> trees_;
 };

@@ -104,9 +104,12 @@ void hs_addSums(inout HS_Sums sums, HS_Sums others) {
 #endif
 
 #ifdef HS_TREES
-#define HS_Left float
+// Whether what casters before hid, or this one covers, leaves nothing.
+#define HS_Left HS_Occlusion
 #define HS_Covered HS_Sums
-bool hs_hidesAll(float left, HS_Sums sums) { return min(min(sums.share.x, sums.share.y), min(sums.share.z, sums.share.w)) >= 1.0; }
+bool hs_hidesAll(HS_Occlusion before, HS_Sums sums) {
+  return all(greaterThanEqual(max(before.share, sums.share), HS_Quads(1.0)));
+}
 #endif
 
 // Means of c = clamp(x, 0, 1) and of c² / 2 while x runs evenly from x0 to x1. Short runs and runs outside

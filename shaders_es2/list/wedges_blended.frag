@@ -76,13 +76,17 @@ HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
 #endif
 
 #ifdef HS_CUTS
-HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed, HS_Occlusion all) {
+HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed, HS_Occlusion hidden) {
   HS_HIGHP float ends = listed ? 0.0 : 3.0;
 #ifdef HS_SIDES
   HS_Occlusion firstSide = hs_nothing();
 #endif
   for (HS_HIGHP int caster = 0; caster < HS_LONGEST_LIST; ++caster) {
     if (ends > 2.5) break;
+#ifdef HS_TREES
+    // What is hidden wholly stays so.
+    if (all(greaterThanEqual(hidden.share, HS_Quads(1.0)))) break;
+#endif
     HS_Sums sums;
     hs_clearSums(sums);
 #ifdef HS_SIDES
@@ -95,7 +99,7 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
 #ifdef HS_TREES
       if (tags.tree > 0.5) {
-        hs_walkTree(projected, tags.side, 1.0, walk, sums);
+        hs_walkTree(projected, tags.side, hidden, walk, sums);
       } else {
         hs_cutWalk(walk, sums, projected, tags);
       }
@@ -114,13 +118,13 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
     if (sideEnds > 0.5) {
       firstSide = both;
     } else {
-      all = hs_merge(all, both);
+      hidden = hs_merge(hidden, both);
     }
 #else
-    all = hs_merge(all, hs_occlusion(sums));
+    hidden = hs_merge(hidden, hs_occlusion(sums));
 #endif
   }
-  return all;
+  return hidden;
 }
 #endif
 
