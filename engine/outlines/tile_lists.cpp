@@ -6,6 +6,8 @@
 #include <array>
 #include <map>
 
+#include "outlines/tree_calls.hpp"
+
 namespace halfshadow::outlines {
 namespace {
 /// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
@@ -84,34 +86,6 @@ void appendBehindFacet(std::uint8_t subLight, std::vector<ListRecord>& records) 
   records[records.size() - 4].startsLoop = true;
   records.back().closesLoop = true;
   records.back().end = ListRecord::End::caster;
-}
-
-/// Appends what leads into trees, which fragments walk, where they are in reach; whether some are.
-bool appendTrees(const std::vector<FacetTree>& trees, const SubLight& light, const TangentBox& receivers,
-                 std::uint8_t subLight, TileLists& lists) {
-  const std::size_t before = lists.records.size();
-  const OuterSides outer(light, receivers);
-  for (const FacetTree& tree : trees) {
-    const FacetTree::Node& all = tree.nodes.front();
-    if (all.high.z <= receivers.iLow || outer.code(all.low, all.high) != 0) continue;
-    auto number = std::ranges::find(lists.trees, &tree) - lists.trees.begin();
-    if (number == std::ssize(lists.trees)) lists.trees.push_back(&tree);
-    lists.records.push_back(
-        {.subLight = subLight, .behindFacet = ListRecord::kTree, .tree = static_cast<std::uint32_t>(number)});
-  }
-  if (lists.records.size() == before) return false;
-  lists.records.back().end = ListRecord::End::caster;
-  return true;
-}
-
-/// The sides of a sheet cover the same ground.
-bool appendTrees(const FacetTrees& trees, const SubLight& light, const TangentBox& receivers,
-                 std::uint8_t subLight, TileLists& lists) {
-  const bool some = appendTrees(trees.towards, light, receivers, subLight, lists);
-  const std::size_t firstSide = lists.records.size() - 1;
-  const bool others = appendTrees(trees.away, light, receivers, subLight, lists);
-  if (some && others) lists.records[firstSide].firstSide = true;
-  return some || others;
 }
 
 /// The box around all non-empty boxes of a block of tiles.
@@ -283,8 +257,11 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
   const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
   thread_local CasterLoops simplified;
+  thread_local std::vector<TreeCall> calls;
+  calls.clear();
   for (std::size_t s = 0; s < subLights.size(); ++s) {
     const std::size_t before = records.size();
+    const auto bit = static_cast<std::uint8_t>(1u << s);
     const SubLightLoops& loops = subLights[s];
     bool full = block[s].full;
     const auto add = [&](Coverage coverage) {
@@ -323,11 +300,9 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
           if (list.casters < 255) ++list.casters;
           continue;
         }
-        const auto leadIntoTrees = [&] {
-          treed = surface;
-          const bool some = appendTrees(surfaces.treesOf(*surface), loops.light, receivers,
-                                        static_cast<std::uint8_t>(s), lists);
-          if (some && list.casters < 255) ++list.casters;
+        const auto leadIntoTrees = [&, walked = surface] {
+          treed = walked;
+          callTrees(*walked, bit, calls);
         };
         if (dense) leadIntoTrees();
         if (surface == treed) continue;
@@ -345,12 +320,16 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     }
     if (full) {
       records.resize(before);
+      for (TreeCall& call : calls) call.subLights &= static_cast<std::uint8_t>(~bit);
     } else if (records.size() == before) {
-      ++list.litSubLights;
+      list.litSubLights |= bit;
     } else {
       records.back().end = ListRecord::End::subLight;
     }
   }
+  const std::size_t treed = insertTrees(calls, receivers, list.first, surfaces, lists);
+  list.leadsIntoTrees = treed > 0;
+  list.casters = static_cast<std::uint8_t>(std::min<std::size_t>(list.casters + treed, 255));
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
   list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
     return record.behindFacet == ListRecord::kTree ||
@@ -385,7 +364,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
         for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
           const auto tile = static_cast<std::size_t>(y * tiles.columns + x);
           if (tiles.boxes[tile].empty()) {
-            lists.tiles[tile].litSubLights = static_cast<std::uint8_t>(subLights.size());
+            lists.tiles[tile].litSubLights = static_cast<std::uint8_t>((1u << subLights.size()) - 1);
             continue;
           }
           lists.tiles[tile] =

@@ -14,8 +14,8 @@
 
 namespace halfshadow::outlines {
 
-/// One vertex in a list. Lists go sub-light by sub-light, caster by caster, loop by loop; a loop is its
-/// vertices and the first once more.
+/// One vertex in a list. Lists begin with the trees that they lead into; then they go sub-light by sub-light,
+/// caster by caster, loop by loop; a loop is its vertices and the first once more.
 struct ListRecord {
   glm::vec3 ti{0.0f};
   std::uint8_t subLight = 0;
@@ -25,9 +25,10 @@ struct ListRecord {
   /// Instead of a vertex: corner 0, 1 or 2 of a triangle that covers of the light what lies behind the plane
   /// of the receiver's own facet.
   std::int8_t behindFacet = kVertex;
-  /// kTree: a tree is walked here; `tree` in TileLists::trees.
+  /// kTree: a tree is walked here, `tree` in TileLists::trees, for those of `treeFor`, a bit each sub-light.
   static constexpr std::int8_t kVertex = -1, kTree = 3;
   std::uint32_t tree = 0;
+  std::uint8_t treeFor = 0;
   enum class End : std::uint8_t { none, caster, subLight, list } end = End::none;
   /// With End::caster: what follows is the other side of the same sheet, and the larger of both counts.
   bool firstSide = false;
@@ -39,7 +40,8 @@ inline constexpr std::uint32_t kLongestList = 65000, kLongestListWithoutHighp = 
 struct TileList {
   std::uint32_t first = 0, count = 0;  ///< in TileLists::records
   std::uint8_t casters = 0;            ///< in the list; 255 = that many or more
-  std::uint8_t litSubLights = 0;       ///< those that nothing covers, of 4
+  std::uint8_t litSubLights = 0;       ///< those that nothing but trees covers, a bit each
+  bool leadsIntoTrees = false;
   /// Of whole loops: no receiver of the tile sees two of its casters before the same point of the light.
   bool apart = false;
   /// Some vertices may lie beside or behind a receiver of the tile, so that edges must be cut.

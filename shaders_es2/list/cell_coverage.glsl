@@ -35,13 +35,18 @@ struct HS_Cells {
 #define HS_CELLS_ALL(value) vec4(value)
 #endif
 
-// Adds the edge from a to b. Edges steeper than HS_STEEP lean by that much, since their quotient would cancel:
-// half of it is the largest error.
-void hs_addEdge(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
-  HS_HIGHP vec2 edge = b - a;
-  HS_HIGHP float slope = edge.x / (abs(edge.y) < HS_FLAT ? HS_FLAT : edge.y);
+// dx / dy and dy / dx of an edge. Edges steeper than HS_STEEP lean by that much, since their quotient would cancel: half of
+// it is the largest error.
+void hs_leanOfEdge(HS_HIGHP vec2 edge, out HS_HIGHP float slope, out HS_HIGHP float inverseSlope) {
+  slope = edge.x / (abs(edge.y) < HS_FLAT ? HS_FLAT : edge.y);
   slope = slope < 0.0 ? min(slope, -HS_STEEP) : max(slope, HS_STEEP);
-  HS_HIGHP float inverseSlope = 1.0 / slope;
+  inverseSlope = 1.0 / slope;
+}
+
+// Adds the edge from a to b.
+void hs_addEdge(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
+  HS_HIGHP float slope, inverseSlope;
+  hs_leanOfEdge(b - a, slope, inverseSlope);
 #ifdef HS_NO_HIGHP
   // From the nearer end: the other may be very far away.
   HS_HIGHP vec2 near = dot(abs(a), vec2(1.0)) < dot(abs(b), vec2(1.0)) ? a : b;
@@ -68,12 +73,14 @@ void hs_addEdge(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
 }
 
 #ifdef HS_CUTS
-// The same for a chord between two points far outside the square: it passes the rows on the left, where it
-// covers nothing, or on the right, where it covers them whole.
-void hs_addFarChord(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_HIGHP float weight) {
+// 1: a chord between two points far outside the square passes it on the right.
+HS_HIGHP float hs_passesRight(HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
   HS_HIGHP float run = b.y - a.y;
-  HS_HIGHP float middle = a.x - a.y * (b.x - a.x) / (abs(run) < HS_FLAT ? HS_FLAT : run);
-  HS_HIGHP float right = weight * step(0.0, middle);
+  return step(0.0, a.x - a.y * (b.x - a.x) / (abs(run) < HS_FLAT ? HS_FLAT : run));
+}
+// Adds such a chord: on the left it covers nothing, on the right the rows whole.
+void hs_addFarChord(inout HS_Cells cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_HIGHP float weight) {
+  HS_HIGHP float right = weight * hs_passesRight(a, b);
 #if HS_CELLS == 4
   cells.x += right * 0.5 * (clamp(b.y, -1.0, 1.0) - clamp(a.y, -1.0, 1.0));
 #else
@@ -142,18 +149,17 @@ void hs_joinSides(inout HS_Cells covered, inout HS_Cells other, HS_HIGHP float f
 #endif
 
 #ifdef HS_TREES
-// Whether no cell has more to lose than a picture shows.
-#define HS_Left HS_Cells
-#define HS_Covered HS_Cells
-bool hs_hidesAll(HS_Cells visible, HS_Cells covered) {
+// visible *= left where `fold` is 1. `left`: lower left, lower right, upper left, upper right.
+void hs_foldQuarters(inout HS_Cells visible, HS_HIGHP vec4 left, HS_HIGHP float fold) {
+  left = mix(vec4(1.0), left, fold);
 #if HS_CELLS == 32
-  HS_HIGHP vec4 left = max(visible.lower * (1.0 - covered.lower), visible.upper * (1.0 - covered.upper));
+  visible.lower *= left.xxyy;
+  visible.upper *= left.zzww;
 #elif HS_CELLS == 16
-  HS_HIGHP vec4 left = visible * (1.0 - covered);
+  visible *= left;
 #else
-  HS_HIGHP vec4 left = vec4(visible.x * (1.0 - covered.x));
+  visible *= dot(left, vec4(0.25));
 #endif
-  return max(max(left.x, left.y), max(left.z, left.w)) < 0.002;
 }
 #endif
 

@@ -12,16 +12,6 @@ HS_HIGHP vec2 hs_onSubLight(HS_HIGHP vec3 projected, HS_HIGHP vec2 side) {
 #endif
 }
 
-#ifdef HS_TREES
-HS_HIGHP vec3 hs_lightWindow(HS_HIGHP vec2 side) {
-#ifdef HS_WHOLE_LIGHT
-  return vec3(0.0, 0.0, 1.0);
-#else
-  return vec3(0.5 * side, 0.5);
-#endif
-}
-#endif
-
 // `projected`, `tags`: of hs_nextVertex().
 #ifndef HS_CASTING_RECEIVER
 // For receivers behind every vertex.
@@ -58,12 +48,9 @@ void hs_startCutWalk(out HS_CutWalk walk) {
 }
 void hs_cutWalk(inout HS_CutWalk walk, inout HS_Cells covered, HS_HIGHP vec3 projected, HS_Tags tags) {
   walk.begun *= 1.0 - tags.starts;
-  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - hs_near, now = projected.z - hs_near;
-  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < HS_SAME ? HS_SAME : before - now));
-  bool crosses = before * now < 0.0 && tags.starts < 0.5;
-  bool seen = max(before, now) > 0.0;
-  HS_HIGHP vec2 from = hs_onSubLight(before > 0.0 ? walk.previous : (crosses ? cut : projected), tags.side);
-  HS_HIGHP vec2 to = hs_onSubLight(now > 0.0 ? projected : cut, tags.side);
+  HS_HIGHP vec3 cutFrom, cutTo;
+  bool seen = hs_cutEdge(walk.previous, projected, tags.starts, cutFrom, cutTo);
+  HS_HIGHP vec2 from = hs_onSubLight(cutFrom, tags.side), to = hs_onSubLight(cutTo, tags.side);
   if (seen && walk.begun < 0.5) {
     walk.firstReached = from;
     walk.reached = from;

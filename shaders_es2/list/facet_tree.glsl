@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Trees of the facets of dense surfaces, walked box by box; a record of the list leads into one. Stackless: each box knows
-// what follows it (facet_tree_texels.hpp). The including file defines hs_lightWindow(), HS_Left, what casters left of the
-// light, HS_Covered, what this one covers, and hs_hidesAll(). Needs caster_lists.glsl. With highp only.
+// what follows it (facet_tree_texels.hpp). For the whole light at once. Defined before: HS_Left, what casters left of the
+// light, HS_Covered, what this one covers, hs_hidesAll(), and hs_treeVertex(), which adds a vertex, with its state
+// HS_TreeVertices. Needs caster_lists.glsl. With highp only.
 #if defined(HS_TREES) && defined(HS_CUTS)
 struct HS_TreeWalk {
   HS_HIGHP vec2 at;
   HS_HIGHP vec3 origin;
-  HS_HIGHP vec3 window;        // of the light's part: xy its centre, z its half side
   HS_HIGHP vec2 afterContour;  // where what follows all of the box is
-  bool lightAbove;             // that part lies before the receiver's own facet
+  bool lightAbove;             // all of it lies before the receiver's own facet
   bool inBox;                  // the next record is a vertex, else a box
   bool onContour, ended;
 };
@@ -20,16 +20,14 @@ HS_HIGHP vec2 hs_recordsOn(HS_HIGHP vec2 at, HS_HIGHP float count) {
   return vec2((2.0 * (column - rows * perRow) + 0.5) * u_cellTexel.z, at.y + rows * u_cellTexel.w);
 }
 
-// Whether nothing in the box, relative to the receiver, hides any of the light's part.
+// Whether nothing in the box, relative to the receiver, hides any of the light.
 bool hs_boxMisses(HS_TreeWalk walk, HS_HIGHP vec3 low, HS_HIGHP vec3 high) {
-  // At each height before the receiver that part is a rectangle.
-  HS_HIGHP float nearest = max(low.z, 0.0);
-  HS_HIGHP vec2 least = walk.window.xy - walk.window.z, most = walk.window.xy + walk.window.z;
-  HS_HIGHP vec2 left = min(least * nearest, least * high.z), right = max(most * nearest, most * high.z);
   // What lies behind the receiver's facet hides nothing of what lies before it.
   bool behind = walk.lightAbove && dot(hs_facet, 0.5 * (low + high)) + dot(abs(hs_facet), 0.5 * (high - low)) <=
                                        hs_facetRounding;
-  return behind || high.z <= 0.0 || high.x < left.x || high.y < left.y || low.x > right.x || low.y > right.y;
+  // At each height before the receiver the light is the square up to that height from the middle.
+  HS_HIGHP float reach = max(high.z, 0.0);
+  return behind || high.z <= 0.0 || min(high.x, high.y) < -reach || max(low.x, low.y) > reach;
 }
 
 // Goes from a box into it, or to its contour, or past it.
@@ -62,17 +60,14 @@ void hs_passBox(inout HS_TreeWalk walk) {
 
 // `address`: of hs_nextVertex() where tags.tree is 1. In phases, boxes until all fragments that are drawn together have one
 // to enter, then what it holds: some devices take both sides of a branch.
-void hs_walkTree(HS_HIGHP vec3 address, HS_HIGHP vec2 side, HS_Left left, inout HS_CutWalk cutWalk,
-                 inout HS_Covered covered) {
+void hs_walkTree(HS_HIGHP vec3 address, HS_Left left, inout HS_TreeVertices vertices, inout HS_Covered covered) {
   HS_HIGHP vec3 stepOfList = hs_step;
   HS_TreeWalk walk;
   walk.at = hs_vertexAt(address.x, address.y + 256.0 * address.z);
   HS_HIGHP vec3 center = hs_beginList(walk.at);
   hs_roundFacet();
   walk.origin = hs_originFrom(center, hs_receiver, hs_away);
-  walk.window = hs_lightWindow(side);
-  walk.lightAbove = hs_facet.z + dot(hs_facet.xy, walk.window.xy) >
-                    walk.window.z * (abs(hs_facet.x) + abs(hs_facet.y));
+  walk.lightAbove = hs_facet.z > abs(hs_facet.x) + abs(hs_facet.y);
   walk.afterContour = walk.at;
   walk.inBox = walk.onContour = walk.ended = false;
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
@@ -85,8 +80,7 @@ void hs_walkTree(HS_HIGHP vec3 address, HS_HIGHP vec2 side, HS_Left left, inout 
       if (!walk.inBox) break;
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(walk.at, walk.origin, tags);
-      tags.side = side;
-      hs_cutWalk(cutWalk, covered, projected, tags);
+      hs_treeVertex(vertices, covered, projected, tags);
       walk.inBox = tags.ends < 0.5;
     }
     if (walk.onContour) walk.at = walk.afterContour;

@@ -9,6 +9,49 @@
 #define HS_FOLD_AT 0.5
 #endif
 
+#if defined(HS_TREES) && defined(HS_CUTS)
+HS_HIGHP vec4 hs_bits(HS_HIGHP float number) { return step(0.5, mod(floor(number / vec4(1.0, 2.0, 4.0, 8.0)), 2.0)); }
+
+// What the trees leave that the list begins with; of what they leave of sub-lights without records the sum goes to hs_lit.
+// Moves on to the first record of something else; false: there is none.
+HS_Grid hs_leftByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool listed) {
+  HS_Grid left = hs_grid(1.0), covered = hs_grid(0.0);
+#ifdef HS_SIDES
+  HS_Grid firstSide = hs_grid(0.0);
+#endif
+  HS_GridVertices vertices;
+  hs_startGrid(vertices);
+  bool treed = false;
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
+    if (!listed) break;
+    HS_Tags tags;
+    HS_HIGHP vec2 next = at;
+    HS_HIGHP vec3 address = hs_nextVertex(next, origin, tags);
+    if (tags.tree < 0.5) break;
+    treed = true;
+    at = next;
+    hs_walkTree(address, left, vertices, covered);
+    HS_HIGHP float ends = step(0.5, tags.ends);
+#ifdef HS_SIDES
+    hs_joinGrids(covered, firstSide, ends, tags.firstSide);
+#endif
+#ifdef HS_WHOLE_LIGHT
+    hs_foldGrid(left, covered, vec4(ends));
+#else
+    hs_foldGrid(left, covered, ends * hs_bits(tags.subLights));
+#endif
+    if (ends > 0.5) covered = hs_grid(0.0);
+    listed = tags.ends < 2.5;
+  }
+#ifdef HS_WHOLE_LIGHT
+  if (treed) hs_lit = min(hs_lit, 1.0) * dot(hs_quartersOf(left), vec4(0.25));
+#else
+  if (treed) hs_lit = dot(hs_bits(hs_lit), hs_quartersOf(left));
+#endif
+  return left;
+}
+#endif
+
 // Visible sub-lights, of HS_SUB_LIGHTS.
 HS_HIGHP float hs_gatheredLight() {
   hs_findList();
@@ -39,29 +82,28 @@ HS_HIGHP float hs_gatheredLight() {
   }
 #endif
 #ifdef HS_CUTS
+#ifdef HS_CASTING_RECEIVER
+  bool cut = hs_listed;
+#else
+  bool cut = hs_among;
+#endif
+#ifdef HS_TREES
+  HS_Grid left = hs_leftByTrees(at, origin, cut);
+#endif
   HS_CutWalk cutWalk;
   hs_startCutWalk(cutWalk);
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
-#ifdef HS_CASTING_RECEIVER
-    if (!hs_listed) break;
-#else
-    if (!hs_among) break;
-#endif
+    if (!cut) break;
     HS_Tags tags;
     HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
-#ifdef HS_TREES
-    if (tags.tree > 0.5) {
-      hs_walkTree(projected, tags.side, visible, cutWalk, covered);
-    } else {
-      hs_cutWalk(cutWalk, covered, projected, tags);
-    }
-#else
     hs_cutWalk(cutWalk, covered, projected, tags);
-#endif
 #ifdef HS_SIDES
     hs_joinSides(covered, otherSide, step(HS_FOLD_AT, tags.ends), tags.firstSide);
 #endif
     hs_foldCaster(visible, covered, step(HS_FOLD_AT, tags.ends));
+#ifdef HS_TREES
+    hs_foldQuarters(visible, hs_cellsOfSide(left, tags.side), step(1.5, tags.ends));
+#endif
     hs_lit += hs_takeSquare(visible, step(1.5, tags.ends));
     if (tags.ends > 2.5) break;
   }

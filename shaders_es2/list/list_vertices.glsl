@@ -83,7 +83,8 @@ struct HS_Tags {
 #endif
   HS_HIGHP vec2 side;
 #ifdef HS_TREES
-  HS_HIGHP float tree;  // 1: what was read is where a tree begins
+  HS_HIGHP float tree;       // 1: what was read is where a tree begins
+  HS_HIGHP float subLights;  // of a tree: those it counts for, a bit each
 #endif
 };
 
@@ -139,6 +140,7 @@ HS_HIGHP vec3 hs_nextVertex(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, out HS
   at = hs_recordAfter(at);
 #ifdef HS_TREES
   tags.tree = behind * step(2.5, 256.0 * value.x);
+  tags.subLights = floor(second.y * 255.0 + 0.5);
   if (tags.tree > 0.5) return floor(vec3(first.zw, second.x) * 255.0 + 0.5);
 #endif
 #ifdef HS_BEHIND_FACETS
@@ -152,3 +154,17 @@ HS_HIGHP vec2 hs_onLight(HS_HIGHP vec3 projected) {
   HS_HIGHP float w = max(projected.z, HS_FAR * max(abs(projected.x), abs(projected.y)) + HS_BEHIND);
   return projected.xy / w;
 }
+
+#ifdef HS_CUTS
+// The part of an edge that is nearer to the light than the receiver, as (x w, y w, w); false: there is none. Where a loop
+// starts the edge has no length.
+bool hs_cutEdge(HS_HIGHP vec3 previous, HS_HIGHP vec3 projected, HS_HIGHP float starts, out HS_HIGHP vec3 from,
+                out HS_HIGHP vec3 to) {
+  HS_HIGHP float before = starts > 0.5 ? -1.0 : previous.z - hs_near, now = projected.z - hs_near;
+  HS_HIGHP vec3 cut = mix(previous, projected, before / (abs(before - now) < HS_SAME ? HS_SAME : before - now));
+  bool crosses = before * now < 0.0 && starts < 0.5;
+  from = before > 0.0 ? previous : (crosses ? cut : projected);
+  to = now > 0.0 ? projected : cut;
+  return max(before, now) > 0.0;
+}
+#endif

@@ -9,6 +9,7 @@
 #include "list/list_vertices.glsl"
 #include "list/caster_lists.glsl"
 #include "list/cell_walk.glsl"
+#include "list/light_grid.glsl"
 #include "list/facet_tree.glsl"
 #include "list/gathered_cells.glsl"
 float halfshadow_visibility() { return 0.25 * hs_gatheredLight(); }

@@ -107,6 +107,8 @@ void hs_addSums(inout HS_Sums sums, HS_Sums others) {
 // Whether what casters before hid, or this one covers, leaves nothing.
 #define HS_Left HS_Occlusion
 #define HS_Covered HS_Sums
+#define HS_TreeVertices HS_CutWalk
+#define hs_treeVertex hs_cutWalk
 bool hs_hidesAll(HS_Occlusion before, HS_Sums sums) {
   return all(greaterThanEqual(max(before.share, sums.share), HS_Quads(1.0)));
 }

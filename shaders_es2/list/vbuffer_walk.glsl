@@ -3,10 +3,6 @@
 // Adds the edges of silhouette loops to what a caster occludes, vertex by vertex. Needs vbuffer_edges.glsl and
 // list_vertices.glsl.
 
-#ifdef HS_TREES
-HS_HIGHP vec3 hs_lightWindow(HS_HIGHP vec2 side) { return vec3(0.0, 0.0, 1.0); }
-#endif
-
 // `projected`, `tags`: of hs_nextVertex().
 #ifndef HS_CASTING_RECEIVER
 // For receivers behind every vertex.
@@ -43,12 +39,9 @@ void hs_startCutWalk(out HS_CutWalk walk) {
 }
 void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 projected, HS_Tags tags) {
   walk.begun *= 1.0 - tags.starts;
-  HS_HIGHP float before = tags.starts > 0.5 ? -1.0 : walk.previous.z - hs_near, now = projected.z - hs_near;
-  HS_HIGHP vec3 cut = mix(walk.previous, projected, before / (abs(before - now) < HS_SAME ? HS_SAME : before - now));
-  bool crosses = before * now < 0.0 && tags.starts < 0.5;
-  bool seen = max(before, now) > 0.0;
-  HS_HIGHP vec2 from = hs_onLight(before > 0.0 ? walk.previous : (crosses ? cut : projected));
-  HS_HIGHP vec2 to = hs_onLight(now > 0.0 ? projected : cut);
+  HS_HIGHP vec3 cutFrom, cutTo;
+  bool seen = hs_cutEdge(walk.previous, projected, tags.starts, cutFrom, cutTo);
+  HS_HIGHP vec2 from = hs_onLight(cutFrom), to = hs_onLight(cutTo);
   if (seen && walk.begun < 0.5) {
     walk.firstReached = from;
     walk.reached = from;

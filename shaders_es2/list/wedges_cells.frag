@@ -8,6 +8,7 @@
 #define HS_SUB_LIGHTS 4.0
 #include "list/caster_lists.glsl"
 #include "list/cell_walk.glsl"
+#include "list/light_grid.glsl"
 #include "list/facet_tree.glsl"
 #include "list/gathered_cells.glsl"
 

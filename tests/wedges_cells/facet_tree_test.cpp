@@ -177,7 +177,7 @@ TEST(FacetTrees, WhatFragmentsMeetIsWhatRaysDoNotPass) {
         "half size %.1f: %d receivers, %d in penumbra, rmse %.4f, largest %.3f, %zu trees, %zu records\n",
         half, found.receivers, found.penumbra, rmse, found.largest, found.trees, found.longest);
     EXPECT_GT(found.trees, 0u);
-    EXPECT_LE(found.longest, 4 * found.trees) << "a record for each tree and sub-light";
+    EXPECT_LE(found.longest, found.trees) << "a record for each tree";
     EXPECT_GT(found.receivers, 200);
     EXPECT_GT(found.penumbra, 20);
     EXPECT_LE(rmse, 0.012) << half;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <random>
 
@@ -120,25 +121,28 @@ void walkTree(const outlines::FacetTree& tree, const outlines::ListRecord& from,
   }
 }
 
-/// The list as if what is met in trees stood in it.
+/// The list as if what is met in trees, with which it begins, stood in it.
 std::vector<outlines::ListRecord> withTrees(std::span<const outlines::ListRecord> list,
                                             std::span<const outlines::FacetTree* const> trees,
                                             std::span<const outlines::SubLight> lights,
                                             const glm::dvec3& receiver) {
+  const auto others = std::ranges::find_if(list, [](const outlines::ListRecord& record) {
+    return record.behindFacet != outlines::ListRecord::kTree;
+  });
   std::vector<outlines::ListRecord> met;
-  for (const outlines::ListRecord& record : list) {
-    if (record.behindFacet != outlines::ListRecord::kTree) {
-      met.push_back(record);
-      continue;
+  for (std::uint8_t s = 0; s < lights.size(); ++s) {
+    for (outlines::ListRecord record : std::span(list.begin(), others)) {
+      if ((record.treeFor >> s & 1) == 0) continue;
+      record.subLight = s;
+      walkTree(*trees[record.tree], record, lights[s], receiver, met);
+      if (record.end == outlines::ListRecord::End::none) continue;
+      // A loop without an inside, to end the caster with.
+      for (int k = 0; k < 2; ++k) met.push_back({.subLight = s, .startsLoop = k == 0, .closesLoop = k == 1});
+      met.back().end = record.end;
+      met.back().firstSide = record.firstSide;
     }
-    walkTree(*trees[record.tree], record, lights[record.subLight], receiver, met);
-    if (record.end == outlines::ListRecord::End::none) continue;
-    // A loop without an inside, to end the caster with.
-    for (int k = 0; k < 2; ++k)
-      met.push_back({.subLight = record.subLight, .startsLoop = k == 0, .closesLoop = k == 1});
-    met.back().end = record.end;
-    met.back().firstSide = record.firstSide;
   }
+  met.insert(met.end(), others, list.end());
   return met;
 }
 
@@ -275,9 +279,11 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     }
     expected /= kSide * kSide;
     // Sub-lights that are covered wholly have no records.
-    const int full = 4 - list.litSubLights;
+    const int full = 4 - std::popcount(list.litSubLights);
     std::array<bool, 4> listed{};
-    for (std::uint32_t k = 0; k < list.count; ++k) listed[lists.records[list.first + k].subLight] = true;
+    for (const outlines::ListRecord& record : records) {
+      if (record.behindFacet != outlines::ListRecord::kTree) listed[record.subLight] = true;
+    }
     actual += full - static_cast<int>(std::count(listed.begin(), listed.end(), true));
     for (const auto& cells : covered) {
       for (const double cell : cells) actual += 0.25 * std::clamp(cell, 0.0, 1.0);

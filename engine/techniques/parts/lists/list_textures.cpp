@@ -3,6 +3,7 @@
 #include "techniques/parts/lists/list_textures.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <map>
 #include <ranges>
@@ -99,6 +100,7 @@ void encodeCall(const outlines::ListRecord& record, std::size_t first, std::uint
   texels[2] = static_cast<std::uint8_t>(first % kRecordsPerRow);
   texels[3] = static_cast<std::uint8_t>(first / kRecordsPerRow & 255);
   texels[4] = static_cast<std::uint8_t>(first / kRecordsPerRow >> 8);
+  texels[5] = record.treeFor;
 }
 
 /// Trees that some list leads into, each once, and the first record of each.
@@ -180,8 +182,10 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
       texel[0] = static_cast<std::uint8_t>(next % kRecordsPerRow);
       texel[1] = static_cast<std::uint8_t>(next / kRecordsPerRow & 255);
       texel[2] = static_cast<std::uint8_t>(next / kRecordsPerRow >> 8);
-      texel[3] = static_cast<std::uint8_t>(list.litSubLights | (list.count > 0 ? 16 : 0) |
-                                           (list.apart ? 32 : 0) | (list.amongReceivers ? 64 : 0));
+      // Of what trees cover fragments must know which they are.
+      const int lit = list.leadsIntoTrees ? list.litSubLights : std::popcount(list.litSubLights);
+      texel[3] = static_cast<std::uint8_t>(lit | (list.count > 0 ? 16 : 0) | (list.apart ? 32 : 0) |
+                                           (list.amongReceivers ? 64 : 0));
       EncodedLists::Placed& placed = result.lists.emplace_back();
       if (list.count == 0) continue;
       const auto records = std::span(receiver.lists->records).subspan(list.first, list.count);

@@ -24,11 +24,14 @@ struct ListImage {
   std::shared_ptr<const std::vector<std::uint8_t>> rgba;
 };
 
-/// A tile's texel: record column, record row (low, high byte), sub-lights that nothing covers + 16 where
-/// there is a list, + 32 where its casters are apart, + 64 where vertices lie among the receivers. A list
-/// begins with a record of its own: its centre, in 256 steps each, and the exponents of two of its steps
-/// along t and along i, each + 128. A record's texels: t.x and t.y in two bytes each, high first; then i,
-/// tag, scale: the vertex is center + (value - 32768) · scale² · step. The tag is in list_vertices.glsl.
+/// A tile's texel: record column, record row (low, high byte), the number of sub-lights that nothing covers
+/// (of a list that leads into trees: a bit each) + 16 where there is a list, + 32 where its casters are
+/// apart,
+/// + 64 where vertices lie among the receivers. What leads into a tree holds its first record (column, row:
+/// low, high byte) and the sub-lights that it counts for in place of a vertex. A list begins with a record of
+/// its own: its centre, in 256 steps each, and the exponents of two of its steps along t and along i, each +
+/// 128. A record's texels: t.x and t.y in two bytes each, high first; then i, tag, scale: the vertex is
+/// center + (value - 32768) · scale² · step. The tag is in list_vertices.glsl.
 struct EncodedLists {
   ListImage tiles, records;
   std::size_t rows = 0;                ///< of the records
