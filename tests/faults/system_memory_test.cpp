@@ -62,11 +62,6 @@ void operator delete[](void* memory, std::size_t) noexcept {
 namespace halfshadow::test {
 namespace {
 
-long stride(long bounded) {
-  const char* asked = std::getenv("HALFSHADOW_TEST_FAULT_STRIDE");
-  return asked ? std::max(std::atol(asked), 1l) : bounded;
-}
-
 class SystemMemory : public EngineTest {
  protected:
   /// Outcome of a call at whose allocation number `at` memory is out.
@@ -95,13 +90,13 @@ TEST_F(SystemMemory, FramesFailAndTheNextIsRight) {
   renderer.desc().target.width = 48;
   renderer.desc().target.height = 36;
   long failed = 0;
-  for (const std::string& technique : techniquesBut(renderer.engine(), {})) {
+  for (const std::string& technique : faultedTechniques(renderer.engine())) {
     SCOPED_TRACE(technique);
     const Image wanted =
         renderer.render(Configuration{technique, {{"map_size", "64"}, {"sampled.samples", "2"}}});
     ASSERT_TRUE(renderer.engine().trim(Trim::everything).ok());
     const long count = allocationsOf([&] { EXPECT_TRUE(renderer.engine().render(renderer.desc()).ok()); });
-    for (long at = 0; at < count; at += stride(std::max(count / 8, 1l))) {
+    for (long at = 0; at < count; at += static_cast<long>(faultStride(std::max(count / 8, 1l)))) {
       ASSERT_TRUE(renderer.engine().trim(Trim::everything).ok());
       const Outcome outcome = failing(at, [&] { return renderer.engine().render(renderer.desc()); });
       EXPECT_TRUE(outcome.ok() || outcome.code == ErrorCode::outOfMemory ||
