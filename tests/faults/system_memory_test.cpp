@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "device/uniforms.hpp"
 #include "engine_fixture.hpp"
 #include "faulty_gl.hpp"
 
@@ -108,6 +109,30 @@ TEST_F(SystemMemory, FramesFailAndTheNextIsRight) {
   }
   EXPECT_GT(failed, 50);
   std::printf("%ld frames failed\n", failed);
+}
+
+/// Of every kind of value, each copied at some allocation.
+TEST_F(SystemMemory, CopiesOfUniformsFailWhole) {
+  device::UniformList uniforms;
+  uniforms.set("u_number", 1.0f);
+  uniforms.set("u_pairs", std::vector<glm::vec2>(5, glm::vec2(2.0f)));
+  uniforms.set("u_matrix", glm::mat4(3.0f));
+  uniforms.set("u_quads", std::vector<glm::vec4>(7, glm::vec4(4.0f)));
+  long failed = 0;
+  for (bool copied = false; !copied; ++failed) {
+    ASSERT_LT(failed, 100);
+    const Outcome outcome = failing(failed, [&]() -> Outcome {
+      try {
+        const device::UniformList copy = uniforms;
+        copied = copy.entries().size() == 4;
+        return {};
+      } catch (const std::bad_alloc&) {
+        return {ErrorCode::outOfMemory, "as it should be"};
+      }
+    });
+    EXPECT_EQ(outcome.ok(), copied);
+  }
+  EXPECT_GE(failed, 4) << "the list and its two arrays, and one copy that succeeded";
 }
 
 TEST_F(SystemMemory, ObjectsLightsAndSettingsFailWhole) {
