@@ -8,8 +8,8 @@
 
 namespace halfshadow::outlines {
 namespace {
-/// Of a clip coordinate w at the near plane: what can be divided by. It is a length of the host's, in units of
-/// any size.
+/// Of a clip coordinate w at the near plane: what can be divided by. It is a length of the host's, in units
+/// of any size.
 constexpr double kSmallestW = std::numeric_limits<double>::min();
 
 Rect unitedRect(const Rect& a, const Rect& b) {
