@@ -7,12 +7,20 @@
 
 namespace {
 thread_local std::uint64_t allocations = 0;
+
+void* counted(std::size_t size) noexcept {
+  ++allocations;
+  return std::malloc(size == 0 ? 1 : size);
 }
+}  // namespace
 
 void* operator new(std::size_t size) {
-  ++allocations;
-  if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;
+  if (void* memory = counted(size)) return memory;
   throw std::bad_alloc();
+}
+// Sanitizers have one of their own, which does not go with what is freed below.
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return counted(size);
 }
 void operator delete(void* memory) noexcept {
   std::free(memory);

@@ -25,9 +25,22 @@ struct UniformKey {
   }
 };
 
-/// Vectors are arrays of the shader.
+/// An array of the shader. No bare std::vector: where an alternative's copy throws, libstdc++ 12 destroys
+/// what was never made, unless a variant has an alternative like this one, of which it does not know that
+/// moving never throws.
+template <typename Vector>
+class UniformArray {
+ public:
+  UniformArray(std::vector<Vector> values) : values_(std::move(values)) {}
+  const Vector* data() const { return values_.data(); }
+  std::size_t size() const { return values_.size(); }
+
+ private:
+  std::vector<Vector> values_;
+};
+
 using UniformValue = std::variant<float, glm::vec2, glm::vec3, glm::vec4, glm::mat3, glm::mat4,
-                                  std::vector<glm::vec2>, std::vector<glm::vec4>>;
+                                  UniformArray<glm::vec2>, UniformArray<glm::vec4>>;
 
 /// A program's uniforms; each once, the last value counts. What a program lacks is ignored.
 class UniformList {

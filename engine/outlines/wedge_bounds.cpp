@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace halfshadow::outlines {
 namespace {
-/// Of a clip coordinate w at the near plane: what divides safely.
-constexpr double kSmallestW = 1e-12;
+/// Of a clip coordinate w at the near plane: what can be divided by. It is a length of the host's, in units
+/// of any size.
+constexpr double kSmallestW = std::numeric_limits<double>::min();
 
 Rect unitedRect(const Rect& a, const Rect& b) {
   const int x = std::min(a.x, b.x), y = std::min(a.y, b.y);

@@ -2,6 +2,9 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "faulty_gl.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <sstream>
 #include <string_view>
 #include <tuple>
 
@@ -17,28 +20,62 @@ struct Inside {
   ~Inside() { --faultyDriver().inside; }
 };
 
-/// Names made by glGen…, glCreate… less those deleted.
-template <typename Tuple>
-void countNames(std::string_view name, const Tuple& arguments) {
-  long sign = 0;
-  if (name.starts_with("glGen") && name != "glGenerateMipmap") sign = 1;
-  if (name.starts_with("glDelete")) sign = -1;
-  if (name.starts_with("glCreate")) sign = 1;
-  if (sign == 0) return;
-  std::string kind(name.substr(name.find_first_of("GDC") == 2 ? 2 : 2));
-  for (const char* verb : {"Gen", "Delete", "Create"}) {
-    if (kind.starts_with(verb)) kind = kind.substr(std::string_view(verb).size());
+/// "Texture" of glGenTextures, glDeleteTextures; "Program" of glCreateProgram.
+std::string kindOf(std::string_view name) {
+  for (const std::string_view verb : {"glGen", "glDelete", "glCreate"}) {
+    if (name.starts_with(verb)) name.remove_prefix(verb.size());
   }
-  if (kind.ends_with("s")) kind.pop_back();
-  long count = 1;
-  if constexpr (std::tuple_size_v<Tuple> == 2) {
-    if constexpr (std::is_integral_v<std::tuple_element_t<0, Tuple>>)
-      count = static_cast<long>(std::get<0>(arguments));
-  } else if constexpr (std::tuple_size_v<Tuple> == 1) {
-    // Deleting the name 0 deletes nothing.
-    if (sign < 0 && std::get<0>(arguments) == 0) return;
+  if (name.ends_with("EXT")) name.remove_suffix(3);
+  if (name.ends_with("ies")) return std::string(name.substr(0, name.size() - 3)) + "y";
+  if (name.ends_with("s")) name.remove_suffix(1);
+  return std::string(name);
+}
+
+void nameMade(std::string_view function, GLuint name) {
+  if (name != 0) faultyDriver().alive[kindOf(function)].insert(name);
+}
+
+/// Deleting the name 0 deletes nothing.
+void nameDeleted(std::string_view function, GLuint name, bool really) {
+  if (name == 0) return;
+  faultyDriver().strangers += faultyDriver().alive[kindOf(function)].erase(name) == 0;
+  if (!really) faultyDriver().left[kindOf(function)].insert(name);
+}
+
+/// What glGen… and glDelete… name in their arguments.
+template <typename... Arguments>
+void keepNames(std::string_view function, bool really, Arguments... arguments) {
+  const std::tuple<Arguments...> all(arguments...);
+  const bool deletes = function.starts_with("glDelete");
+  if constexpr (sizeof...(Arguments) == 1) {
+    if constexpr (std::is_same_v<std::tuple_element_t<0, std::tuple<Arguments...>>, GLuint>) {
+      if (deletes) nameDeleted(function, std::get<0>(all), really);
+    }
+  } else if constexpr (sizeof...(Arguments) == 2) {
+    using Last = std::tuple_element_t<1, std::tuple<Arguments...>>;
+    if constexpr (std::is_same_v<Last, GLuint*> || std::is_same_v<Last, const GLuint*>) {
+      const bool makes = function.starts_with("glGen");
+      for (GLsizei i = 0; (makes || deletes) && i < std::get<0>(all); ++i) {
+        if (makes) nameMade(function, std::get<1>(all)[i]);
+        if (deletes) nameDeleted(function, std::get<1>(all)[i], really);
+      }
+    }
   }
-  faultyDriver().alive[kind] += sign * count;
+}
+
+void deleteNames(const FaultyDriver::Names& names) {
+  const gl::Functions& gl = hostGl();
+  for (const auto& [kind, some] : names) {
+    for (const GLuint name : some) {
+      if (kind == "Buffer") gl.deleteBuffers(1, &name);
+      if (kind == "Framebuffer") gl.deleteFramebuffers(1, &name);
+      if (kind == "Renderbuffer") gl.deleteRenderbuffers(1, &name);
+      if (kind == "Texture") gl.deleteTextures(1, &name);
+      if (kind == "Query") gl.deleteQueries(1, &name);
+      if (kind == "Program") gl.deleteProgram(name);
+      if (kind == "Shader") gl.deleteShader(name);
+    }
+  }
 }
 
 bool movesVertices(std::string_view name) {
@@ -94,13 +131,20 @@ struct Faulty {
         }
         refuseStatus(name, std::tuple<Arguments...>(arguments...));
         // A deletion that does nothing leaks in the driver, not here.
-        if (std::string_view(name).starts_with("glDelete"))
-          countNames(name, std::tuple<Arguments...>(arguments...));
+        if (std::string_view(name).starts_with("glDelete")) keepNames(name, false, arguments...);
         return Result();
       }
       if (faulty.drawsAreUnsafe && std::string_view(name).starts_with("glDraw")) return Result();
-      countNames(name, std::tuple<Arguments...>(arguments...));
-      return driver(arguments...);
+      if constexpr (std::is_void_v<Result>) {
+        driver(arguments...);
+        keepNames(name, true, arguments...);
+      } else {
+        const Result result = driver(arguments...);
+        if constexpr (std::is_same_v<Result, GLuint>) {
+          if (std::string_view(name).starts_with("glCreate")) nameMade(name, result);
+        }
+        return result;
+      }
     }
   }
 };
@@ -151,11 +195,40 @@ void FaultyDriver::disarm() {
   gone = false;
   drawsAreUnsafe = false;
   pendingError = GL_NO_ERROR;
+  deleteNames(left);
+  left.clear();
+}
+
+void FaultyDriver::endContext() {
+  hostGl().useProgram(0);
+  deleteNames(alive);
+  alive.clear();
+  strangers = 0;
+}
+
+std::size_t FaultyDriver::aliveCount() const {
+  std::size_t count = 0;
+  for (const auto& [kind, names] : alive) count += names.size();
+  return count;
 }
 
 FaultyDriver& faultyDriver() {
   static FaultyDriver driver;
   return driver;
+}
+
+std::uint64_t faultStride(std::uint64_t bounded) {
+  const char* asked = std::getenv("HALFSHADOW_TEST_FAULT_STRIDE");
+  return asked ? std::max<std::uint64_t>(std::strtoull(asked, nullptr, 10), 1) : bounded;
+}
+
+std::vector<std::string> faultedTechniques(Engine& engine) {
+  const char* asked = std::getenv("HALFSHADOW_TEST_TECHNIQUES");
+  if (asked == nullptr) return techniquesBut(engine, {});
+  std::vector<std::string> techniques;
+  std::istringstream list(asked);
+  for (std::string name; std::getline(list, name, ',');) techniques.push_back(name);
+  return techniques;
 }
 
 EngineDesc faultyDesc(HostState hostState) {

@@ -8,7 +8,9 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "halfshadow/halfshadow.hpp"
 
@@ -37,12 +39,25 @@ struct FaultyDriver {
   /// A draw whose vertices are not where it was told would read anywhere: it is dropped, as by a driver that
   /// checks.
   bool drawsAreUnsafe = false;
-  int inside = 0;                     ///< above 0 while the driver itself works
-  std::map<std::string, long> alive;  ///< names made and not deleted, by kind
+  int inside = 0;                                                ///< above 0 while the driver itself works
+  using Names = std::map<std::string, std::set<std::uint32_t>>;  ///< by kind
+  Names alive;         ///< made, and not deleted as far as the caller knows
+  Names left;          ///< what a deletion that failed left in the driver
+  long strangers = 0;  ///< names that were deleted and were not alive
   void arm(Fault what, std::uint64_t call);
+  /// Ends the fault, and deletes what it left.
   void disarm();
+  /// Deletes what is alive, as the end of a context does: the one that follows knows none of those names.
+  void endContext();
+  /// How many names are alive.
+  std::size_t aliveCount() const;
 };
 FaultyDriver& faultyDriver();
+
+/// Each so-manieth call fails: HALFSHADOW_TEST_FAULT_STRIDE, else `bounded`.
+std::uint64_t faultStride(std::uint64_t bounded);
+/// HALFSHADOW_TEST_TECHNIQUES, separated by commas, else all of the engine's.
+std::vector<std::string> faultedTechniques(Engine& engine);
 
 /// Of an engine on the process's context, through the faulty driver.
 EngineDesc faultyDesc(HostState hostState = HostState::leaveDirty);

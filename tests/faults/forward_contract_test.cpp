@@ -36,7 +36,8 @@ class ForwardContract : public EngineTest {
     host_.reset();
     renderer_.reset();
     faultyDriver().disarm();
-    faultyDriver().alive.clear();
+    EXPECT_EQ(faultyDriver().aliveCount(), 0u);
+    faultyDriver().endContext();
     EngineTest::TearDown();
   }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "device/uniforms.hpp"
 #include "engine_fixture.hpp"
 #include "faulty_gl.hpp"
 
@@ -62,11 +63,6 @@ void operator delete[](void* memory, std::size_t) noexcept {
 namespace halfshadow::test {
 namespace {
 
-long stride(long bounded) {
-  const char* asked = std::getenv("HALFSHADOW_TEST_FAULT_STRIDE");
-  return asked ? std::max(std::atol(asked), 1l) : bounded;
-}
-
 class SystemMemory : public EngineTest {
  protected:
   /// Outcome of a call at whose allocation number `at` memory is out.
@@ -95,13 +91,13 @@ TEST_F(SystemMemory, FramesFailAndTheNextIsRight) {
   renderer.desc().target.width = 48;
   renderer.desc().target.height = 36;
   long failed = 0;
-  for (const std::string& technique : techniquesBut(renderer.engine(), {})) {
+  for (const std::string& technique : faultedTechniques(renderer.engine())) {
     SCOPED_TRACE(technique);
     const Image wanted =
         renderer.render(Configuration{technique, {{"map_size", "64"}, {"sampled.samples", "2"}}});
     ASSERT_TRUE(renderer.engine().trim(Trim::everything).ok());
     const long count = allocationsOf([&] { EXPECT_TRUE(renderer.engine().render(renderer.desc()).ok()); });
-    for (long at = 0; at < count; at += stride(std::max(count / 8, 1l))) {
+    for (long at = 0; at < count; at += static_cast<long>(faultStride(std::max(count / 8, 1l)))) {
       ASSERT_TRUE(renderer.engine().trim(Trim::everything).ok());
       const Outcome outcome = failing(at, [&] { return renderer.engine().render(renderer.desc()); });
       EXPECT_TRUE(outcome.ok() || outcome.code == ErrorCode::outOfMemory ||
@@ -113,6 +109,30 @@ TEST_F(SystemMemory, FramesFailAndTheNextIsRight) {
   }
   EXPECT_GT(failed, 50);
   std::printf("%ld frames failed\n", failed);
+}
+
+/// Of every kind of value, each copied at some allocation.
+TEST_F(SystemMemory, CopiesOfUniformsFailWhole) {
+  device::UniformList uniforms;
+  uniforms.set("u_number", 1.0f);
+  uniforms.set("u_pairs", std::vector<glm::vec2>(5, glm::vec2(2.0f)));
+  uniforms.set("u_matrix", glm::mat4(3.0f));
+  uniforms.set("u_quads", std::vector<glm::vec4>(7, glm::vec4(4.0f)));
+  long failed = 0;
+  for (bool copied = false; !copied; ++failed) {
+    ASSERT_LT(failed, 100);
+    const Outcome outcome = failing(failed, [&]() -> Outcome {
+      try {
+        const device::UniformList copy = uniforms;
+        copied = copy.entries().size() == 4;
+        return {};
+      } catch (const std::bad_alloc&) {
+        return {ErrorCode::outOfMemory, "as it should be"};
+      }
+    });
+    EXPECT_EQ(outcome.ok(), copied);
+  }
+  EXPECT_GE(failed, 4) << "the list and its two arrays, and one copy that succeeded";
 }
 
 TEST_F(SystemMemory, ObjectsLightsAndSettingsFailWhole) {

@@ -155,8 +155,12 @@ TEST(WedgeBounds, ScreenRectanglesHoldWhatTheCameraSees) {
   std::mt19937 random(23);
   std::uniform_real_distribution<double> wide(-6.0, 6.0), unit(0.0, 1.0);
   constexpr int kWide = 200, kHigh = 150;
-  const glm::dmat4 clipFromWorld = glm::perspective(1.0, 4.0 / 3.0, 0.1, 100.0) *
-                                   glm::lookAt(glm::dvec3(0, 1, 4), glm::dvec3(0), glm::dvec3(0, 1, 0));
+  // The same in units of any size: powers of two, so that no bit of the rectangles may differ.
+  const auto inUnits = [](double unit) {
+    return glm::perspective(1.0, 4.0 / 3.0, 0.1 * unit, 100.0 * unit) *
+           glm::lookAt(unit * glm::dvec3(0, 1, 4), glm::dvec3(0), glm::dvec3(0, 1, 0));
+  };
+  const glm::dmat4 clipFromWorld = inUnits(1.0);
   int seen = 0, smaller = 0;
   for (int round = 0; round < 500; ++round) {
     std::vector<glm::dvec3> hull;
@@ -165,6 +169,12 @@ TEST(WedgeBounds, ScreenRectanglesHoldWhatTheCameraSees) {
       hull.push_back(center + 0.3 * glm::dvec3(wide(random), wide(random), wide(random)));
     const auto rect = outlines::screenBounds(hull, clipFromWorld, kWide, kHigh);
     if (rect && rect->width * rect->height < kWide * kHigh) ++smaller;
+    for (const double unit : {0x1p-96, 0x1p-40, 0x1p96}) {
+      std::vector<glm::dvec3> resized = hull;
+      for (glm::dvec3& corner : resized) corner *= unit;
+      EXPECT_EQ(outlines::screenBounds(resized, inUnits(unit), kWide, kHigh), rect)
+          << "round " << round << ", units of " << unit;
+    }
     for (int i = 0; i < 100; ++i) {
       glm::dvec3 point(0.0);
       double sum = 0.0;
