@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "outlines/near_surface.hpp"
+#include "outlines/near_loops.hpp"
 #include "outlines/tangent_space.hpp"
 #include "scene/light_silhouettes.hpp"
 
