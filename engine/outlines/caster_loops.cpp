@@ -235,6 +235,8 @@ void CasterLoops::clear() {
   loops.clear();
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
+  partLow = glm::vec3(-1e30f);
+  partHigh = glm::vec3(1e30f);
   enclosesLight = isRoom = seenInside = false;
   deepest = 0.0f;
   firstLayer = layerCount = 0;
@@ -254,6 +256,24 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 }
 
 namespace {
+/// Of single precision, and of what the loops' points were rounded to.
+constexpr double kBoundsRounding = 1e-6;
+
+/// The default where it is not wholly before the light's plane.
+void boundPart(const scene::Bounds& partWorld, const ListSpace& space, CasterLoops& caster) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& corner : partWorld.corners()) {
+    const glm::dvec3 abh = space.plane.fromWorld(corner);
+    if (abh.z <= kBoundsRounding) return;
+    const glm::dvec3 ti = space.tangentPoint(abh);
+    low = glm::min(low, ti);
+    high = glm::max(high, ti);
+  }
+  const glm::dvec3 rounding = kBoundsRounding * glm::max(glm::abs(low), glm::abs(high));
+  caster.partLow = glm::vec3(low - rounding);
+  caster.partHigh = glm::vec3(high + rounding);
+}
+
 /// Entries that share layers are near receivers, or behind none of them, together.
 void boundTogether(std::span<CasterLoops> casters) {
   for (std::size_t first = 0, end = 0; first < casters.size(); first = end) {
@@ -300,6 +320,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
       }
       caster.addLoop(loop);
     }
+    boundPart(source.partWorld, space, caster);
     caster.deepest = static_cast<float>(1.0 / static_cast<double>(source.deepest) - space.originI);
     caster.object = source.object;
     caster.part = source.part;

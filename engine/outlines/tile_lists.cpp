@@ -170,6 +170,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   }
   for (const CasterLoops& caster : loops.casters) {
     if (taken[static_cast<std::size_t>(&caster - loops.casters.data())] != 0) continue;
+    if (!caster.isRoom && !caster.enclosesLight && sides.code(caster.partLow, caster.partHigh) != 0) continue;
     around = nullptr;
     const glm::vec3 low(glm::vec2(caster.low), deepestOf(caster));
     if (low.z >= receivers.iHigh) {
