@@ -12,7 +12,7 @@ constexpr double kFarPatch = 1.25;
 /// Closed loops from directed edges between points.
 class Chain {
  public:
-  explicit Chain(std::size_t points) {
+  Chain(std::size_t points, std::vector<std::int32_t>& first) : first_(first) {
     if (first_.size() < points) first_.resize(points, -1);
   }
   void add(std::uint32_t from, std::uint32_t to) {
@@ -45,12 +45,10 @@ class Chain {
     std::uint32_t to = 0;
     std::int32_t next = -1;
   };
-  // All -1 between uses.
-  static thread_local std::vector<std::int32_t> first_;
+  std::vector<std::int32_t>& first_;  ///< by point; all -1 between uses
   std::vector<Link> links_;
   std::vector<std::uint32_t> starts_;
 };
-thread_local std::vector<std::int32_t> Chain::first_;
 
 /// How a facet enters the lists.
 enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned, kOneSided };
@@ -80,15 +78,15 @@ bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
 }  // namespace
 
 void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
-               const ReceiverSet& receivers, FacetChoice choice, NearLoops& result) {
+               const ReceiverSet& receivers, FacetChoice choice, NearLoopScratch& scratch,
+               NearLoops& result) {
   result.joined.clear();
   result.among.clear();
   result.oneSided.clear();
-  thread_local std::vector<std::uint8_t> roles;
-  // All absent between uses.
+  std::vector<std::uint8_t>& roles = scratch.roles;
   if (roles.size() < surface.facets.size()) roles.resize(surface.facets.size(), kAbsent);
   for (const std::uint32_t f : facets) roles[f] = roleOf(surface, f, light, receivers, choice);
-  Chain chain(surface.points.size());
+  Chain chain(surface.points.size(), scratch.firstLink);
   enum class Way { outward, turned };
   /// The edges of facet f where no facet of the same kind goes on.
   const auto link = [&](std::uint32_t f, Way way, auto goesOn) {

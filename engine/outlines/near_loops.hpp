@@ -15,7 +15,12 @@ namespace halfshadow::outlines {
 struct NearLoops {
   std::vector<std::vector<glm::vec3>> joined, among, oneSided;
 };
+/// Working memory of nearLoops(), for any surface: between uses all links are -1, all roles 0.
+struct NearLoopScratch {
+  std::vector<std::int32_t> firstLink;  ///< by point
+  std::vector<std::uint8_t> roles;      ///< by facet
+};
 void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
-               const ReceiverSet& receivers, FacetChoice choice, NearLoops& result);
+               const ReceiverSet& receivers, FacetChoice choice, NearLoopScratch& scratch, NearLoops& result);
 
 }  // namespace halfshadow::outlines
