@@ -15,7 +15,8 @@ Counters countersOf(const FrameReport& report) {
           .bytesLoaded = report.bytesLoaded,
           .bytesStored = report.bytesStored,
           .textureBytesUploaded = report.textureBytesUploaded,
-          .bufferBytesUploaded = report.bufferBytesUploaded};
+          .bufferBytesUploaded = report.bufferBytesUploaded,
+          .silhouettesExtracted = report.silhouettesExtracted};
 }
 
 std::vector<PassMeasurement> passesOf(const FrameReport& report) {

@@ -37,7 +37,8 @@ Json toJson(const Counters& counters) {
           {"bytes_loaded", counters.bytesLoaded},
           {"bytes_stored", counters.bytesStored},
           {"texture_bytes_uploaded", counters.textureBytesUploaded},
-          {"buffer_bytes_uploaded", counters.bufferBytesUploaded}};
+          {"buffer_bytes_uploaded", counters.bufferBytesUploaded},
+          {"silhouettes_extracted", counters.silhouettesExtracted}};
 }
 
 Json toJson(const PassMeasurement& pass) {

@@ -226,6 +226,7 @@ Result<bool> Engine::State::drawUnchanged() {
       frame.desc.target.kind == TargetDesc::Kind::host && frame.desc.output != Output::lightsOnly;
   frame.unchanged = true;
   frame.counters = {};
+  frame.silhouettesExtracted = 0;
   frame.passReports.clear();
   executor->repeatRun();
   if (!host) return true;

@@ -191,6 +191,7 @@ SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& reque
            .receiverFarDistance = request.receiverFarDistance,
            .casters = cache.casters.values(),
            .groups = cache.groups,
+           .silhouettes = cache.silhouettes,
            .receivers = frame.receivers,
            .shadowlessReceivers = cache.shadowlessReceivers.values(),
            .contentKey = request.contentKey,
@@ -206,8 +207,12 @@ Status Engine::State::prepareLight(Frame& frame, const LightRequest& request,
   if (cache.passesOf != choice.technique) {
     cache.passesOf = choice.technique;
     cache.passes = std::make_unique<techniques::LightPasses>(choice.technique->newPlanner());
+    cache.silhouettes = {};  // another technique may see casters from other points
   }
-  return cache.passes->prepare(split.scene);
+  const std::uint64_t before = cache.silhouettes.extracted();
+  Status prepared = cache.passes->prepare(split.scene);
+  frame.silhouettesExtracted += cache.silhouettes.extracted() - before;
+  return prepared;
 }
 
 Result<api::LightFallbacks::Choice> Engine::State::prepared(Frame& frame, const LightRequest& request,

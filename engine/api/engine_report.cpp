@@ -109,6 +109,7 @@ FrameReport Engine::State::frameReport() {
           .textureBytesUploaded = frame.counters.textureUploadBytes,
           .bufferBytesUploaded = frame.counters.bufferUploadBytes,
           .memoryBytes = state.memoryBytes(),
+          .silhouettesExtracted = frame.silhouettesExtracted,
           .planText = storage.planText.c_str(),
           .planGraphviz = storage.planGraphviz.c_str()};
 }

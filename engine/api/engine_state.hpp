@@ -42,6 +42,7 @@ struct LightCache {
   api::ItemList casters, shadowlessReceivers;
   api::KeptList<planner::CasterShape> casterShapes;
   scene::CasterGroups groups;
+  scene::CasterSilhouettes silhouettes;
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFitter fitter;
   planner::LightFit fit;
@@ -82,6 +83,7 @@ struct Frame {
   std::vector<planner::Skip> skips;
   std::vector<framegraph::PassReport> passReports;
   gl::Counters counters;
+  std::uint64_t silhouettesExtracted = 0;
   bool unchanged = false;           ///< asked for again, it was drawn in part or not at all
   std::uint64_t sceneRevision = 0;  ///< see State::sceneRevision
   bool valid = false;               ///< it was drawn without an error

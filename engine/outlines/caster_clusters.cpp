@@ -6,6 +6,7 @@
 
 #include "scene/covered_levels.hpp"
 #include "scene/edge_uses.hpp"
+#include "scene/silhouette_layers.hpp"
 
 namespace halfshadow::outlines {
 namespace {
@@ -180,18 +181,6 @@ bool coveredByAny(const scene::LightSilhouettes& outlines, std::span<const std::
   return arrangement.find(levels, 1) && !levels.empty();
 }
 
-/// One entry with the bounds of a group, its loops not set.
-Entry unionOf(const scene::LightSilhouettes& outlines, std::span<const std::uint32_t> group) {
-  Entry all = outlines.casters[group[0]];
-  for (const std::uint32_t c : group) {
-    const Entry& entry = outlines.casters[c];
-    all.low = glm::min(all.low, entry.low);
-    all.high = glm::max(all.high, entry.high);
-    all.deepest = std::max(all.deepest, entry.deepest);
-    all.partWorld.include(entry.partWorld);
-  }
-  return all;
-}
 }  // namespace
 
 std::vector<CasterCluster> casterClusters(const scene::LightSilhouettes& silhouettes,
@@ -212,15 +201,14 @@ scene::LightSilhouettes takenTogether(scene::LightSilhouettes outlines) {
   if (groups.size() == entries.size()) return outlines;
   for (std::uint32_t c = 0; c < entries.size(); ++c) groups[numberOf[c]].push_back(c);
   scene::LightSilhouettes result;
-  result.counters = outlines.counters;
   scene::CoveredLevels arrangement;
   std::vector<scene::CoveredLevels::Level> levels;
+  std::vector<const Entry*> together;
   for (const std::vector<std::uint32_t>& group : groups) {
     if (coveredByAny(outlines, group, arrangement, levels)) {
-      result.casters.push_back(unionOf(outlines, group));
-      result.casters.back().firstLoop = static_cast<std::uint32_t>(result.loops.size());
-      result.casters.back().loopCount = static_cast<std::uint32_t>(levels[0].size());
-      for (const scene::CoveredLevels::Loop& loop : levels[0]) result.addLoop(loop.points);
+      together.clear();
+      for (const std::uint32_t c : group) together.push_back(entries[c]);
+      scene::addTogether(together, levels[0], result);
     } else {
       for (const std::uint32_t c : group) result.addCaster(outlines, *entries[c]);
     }

@@ -107,12 +107,7 @@ void cutFarOutside(std::vector<glm::vec3>& loop, const SubLight& light, const Ta
   }
 }
 
-/// A vertex of a loop under simplification. `sure`: it lies before every receiver.
-struct Judged {
-  glm::vec3 ti{0.0f};
-  unsigned code = 0;
-  bool sure = true;
-};
+using Judged = SimplifyScratch::Judged;
 
 /// Drops what lies between two vertices of a run beyond one side. Both must be before every receiver: then,
 /// for each receiver, the dropped path and the edge that replaces it lie in one convex region that holds no
@@ -183,12 +178,13 @@ enum class LoopKind { whole, oneSided };
 /// Collects the loops of one caster, simplified for the receivers.
 class Simplifier {
  public:
-  Simplifier(const SubLight& light, const TangentBox& receivers, CasterLoops& result)
-      : light_(light), receivers_(receivers), sides_(light, receivers), result_(result) {}
+  Simplifier(const SubLight& light, const TangentBox& receivers, SimplifyScratch& scratch,
+             CasterLoops& result)
+      : light_(light), receivers_(receivers), sides_(light, receivers), scratch_(scratch), result_(result) {}
 
   void add(std::span<const glm::vec3> loop, LoopKind kind = LoopKind::whole) {
-    thread_local std::vector<glm::vec3> cut, kept;
-    thread_local std::vector<Judged> judged, collapsed;
+    std::vector<glm::vec3>&cut = scratch_.cut, &kept = scratch_.kept;
+    std::vector<Judged>&judged = scratch_.judged, &collapsed = scratch_.collapsed;
     cutFar(loop, farEnd(receivers_), cut);
     if (cut.size() < 3) return;
     cutFarOutside(cut, light_, receivers_, kept);
@@ -224,6 +220,7 @@ class Simplifier {
   const SubLight& light_;
   const TangentBox& receivers_;
   OuterSides sides_;
+  SimplifyScratch& scratch_;
   CasterLoops& result_;
   int constant_ = 0;
   bool partial_ = false;
@@ -235,6 +232,8 @@ void CasterLoops::clear() {
   loops.clear();
   low = glm::vec3(1e30f);
   high = glm::vec3(-1e30f);
+  partLow = glm::vec3(-1e30f);
+  partHigh = glm::vec3(1e30f);
   enclosesLight = isRoom = seenInside = false;
   deepest = 0.0f;
   firstLayer = layerCount = 0;
@@ -254,6 +253,24 @@ void CasterLoops::addLoop(std::span<const glm::vec3> loop) {
 }
 
 namespace {
+/// Of single precision, and of what the loops' points were rounded to.
+constexpr double kBoundsRounding = 1e-6;
+
+/// The default where it is not wholly before the light's plane.
+void boundPart(const scene::Bounds& partWorld, const ListSpace& space, CasterLoops& caster) {
+  glm::dvec3 low(1e300), high(-1e300);
+  for (const glm::dvec3& corner : partWorld.corners()) {
+    const glm::dvec3 abh = space.plane.fromWorld(corner);
+    if (abh.z <= kBoundsRounding) return;
+    const glm::dvec3 ti = space.tangentPoint(abh);
+    low = glm::min(low, ti);
+    high = glm::max(high, ti);
+  }
+  const glm::dvec3 rounding = kBoundsRounding * glm::max(glm::abs(low), glm::abs(high));
+  caster.partLow = glm::vec3(low - rounding);
+  caster.partHigh = glm::vec3(high + rounding);
+}
+
 /// Entries that share layers are near receivers, or behind none of them, together.
 void boundTogether(std::span<CasterLoops> casters) {
   for (std::size_t first = 0, end = 0; first < casters.size(); first = end) {
@@ -300,6 +317,7 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
       }
       caster.addLoop(loop);
     }
+    boundPart(source.partWorld, space, caster);
     caster.deepest = static_cast<float>(1.0 / static_cast<double>(source.deepest) - space.originI);
     caster.object = source.object;
     caster.part = source.part;
@@ -340,12 +358,12 @@ unsigned OuterSides::code(const glm::vec3& low, const glm::vec3& high) const {
 }
 
 Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
-                  CasterLoops& result) {
+                  SimplifyScratch& scratch, CasterLoops& result) {
   result.clear();
   if (caster.enclosesLight) return Coverage::full;
   if (caster.high.z <= farEnd(receivers)) return Coverage::none;
   if (OuterSides(light, receivers).code(caster.low, caster.high) != 0) return Coverage::none;
-  Simplifier simplifier(light, receivers, result);
+  Simplifier simplifier(light, receivers, scratch, result);
   for (const CasterLoops::Loop& loop : caster.loops) {
     simplifier.add({caster.points.data() + loop.first, loop.count});
   }
@@ -353,13 +371,13 @@ Coverage simplify(const CasterLoops& caster, const SubLight& light, const Tangen
 }
 
 Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
-                  const ReceiverSet& receivers, FacetChoice choice, CasterLoops& result) {
+                  const ReceiverSet& receivers, FacetChoice choice, SimplifyScratch& scratch,
+                  CasterLoops& result) {
   result.clear();
-  thread_local std::vector<std::uint32_t> mattering;
-  thread_local NearLoops loops;
-  facetsThatMatter(surface, facets, light, receivers, choice, mattering);
-  nearLoops(surface, mattering, light, receivers, choice, loops);
-  Simplifier simplifier(light, receivers.box, result);
+  NearLoops& loops = scratch.loops;
+  facetsThatMatter(surface, facets, light, receivers, choice, scratch.mattering);
+  nearLoops(surface, scratch.mattering, light, receivers, choice, scratch.near, loops);
+  Simplifier simplifier(light, receivers.box, scratch, result);
   for (const std::vector<glm::vec3>& loop : loops.joined) simplifier.add(loop);
   // What stands before all receivers may cover all of the light.
   if (simplifier.coverage() == Coverage::full) return Coverage::full;

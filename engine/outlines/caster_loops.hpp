@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "outlines/near_surface.hpp"
+#include "outlines/near_loops.hpp"
 #include "outlines/tangent_space.hpp"
 #include "scene/light_silhouettes.hpp"
 
@@ -31,6 +31,9 @@ struct CasterLoops {
   std::vector<glm::vec3> points;
   std::vector<Loop> loops;
   glm::vec3 low{1e30f}, high{-1e30f};
+  /// Bounds of its whole part, not only of its loops: where they lie beyond one side of the light for some
+  /// receivers, it covers nothing for them, and none of them is inside it.
+  glm::vec3 partLow{-1e30f}, partHigh{1e30f};
   float deepest = 0.0f;        ///< no point of its part has a smaller i; the loops of a bowl do not tell
   bool enclosesLight = false;  ///< and no receiver that is seen stands inside it
   bool isRoom = false;         ///< it encloses the light, and receivers stand inside it: only faces tell
@@ -100,16 +103,32 @@ class OuterSides {
 
 enum class Coverage { none, full, partial };
 
+/// Working memory of simplify().
+struct SimplifyScratch {
+  /// A vertex of a loop under simplification. `sure`: it lies before every receiver.
+  struct Judged {
+    glm::vec3 ti{0.0f};
+    unsigned code = 0;
+    bool sure = true;
+  };
+  std::vector<glm::vec3> cut, kept;
+  std::vector<Judged> judged, collapsed;
+  std::vector<std::uint32_t> mattering;
+  NearLoops loops;
+  NearLoopScratch near;
+};
+
 /// Writes into `result` loops that cover every cell of the sub-light exactly as `caster` does, for every
-/// receiver in the box: parts farther from the light than all receivers are cut off, runs of vertices beyond
-/// one side collapse to their chord, loops that cover nothing are dropped. `full`: the sub-light is wholly
-/// covered for all of them; `none`: not at all (result empty).
+/// receiver in the box: parts farther from the light than all receivers are cut off, runs of vertices
+/// beyond one side collapse to their chord, loops that cover nothing are dropped. `full`: the sub-light is
+/// wholly covered for all of them; `none`: not at all (result empty).
 Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
-                  CasterLoops& result);
+                  SimplifyScratch& scratch, CasterLoops& result);
 
 /// The same from the faces of a caster, for receivers not behind all of it. `facets`:
 /// those that matter, or more.
 Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
-                  const ReceiverSet& receivers, FacetChoice choice, CasterLoops& result);
+                  const ReceiverSet& receivers, FacetChoice choice, SimplifyScratch& scratch,
+                  CasterLoops& result);
 
 }  // namespace halfshadow::outlines

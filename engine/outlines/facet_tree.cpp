@@ -6,7 +6,7 @@
 #include <map>
 #include <span>
 
-#include "outlines/near_surface.hpp"
+#include "outlines/facet_sides.hpp"
 
 namespace halfshadow::outlines {
 namespace {

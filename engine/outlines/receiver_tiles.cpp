@@ -16,6 +16,9 @@ struct Polygon {
   glm::dvec3 low{1e300}, high{-1e300};
   glm::dvec4 plane{0.0};
   bool eitherSide = false, turned = false;
+  /// Reciprocal height over it: i = base + dot(gradient, t).
+  glm::dvec2 gradient{0.0};
+  double base = 0.0;
   void add(const glm::dvec3& p) {
     points[count++] = p;
     low = glm::min(low, p);
@@ -42,28 +45,16 @@ bool facesLight(const glm::dvec3 (&abh)[3], double orientation) {
   return middle + std::abs(normal.x) + std::abs(normal.y) > 0.0;
 }
 
-/// Reciprocal height over the polygon's plane: i = base + dot(gradient, t). Infinite gradients (the polygon
-/// is seen edge-on) give false.
-bool planeOf(const Polygon& polygon, glm::dvec2& gradient, double& base) {
+/// Finds the polygon's gradient. Infinite ones (it is seen edge-on) give false.
+bool findGradient(Polygon& polygon) {
   glm::dvec3 normal(0.0);
   for (int k = 2; k < polygon.count; ++k) {
     normal += glm::cross(polygon.points[k - 1] - polygon.points[0], polygon.points[k] - polygon.points[0]);
   }
   const double steepest = std::max(std::abs(normal.x), std::abs(normal.y));
   if (std::abs(normal.z) <= 1e-6 * steepest || normal.z == 0.0) return false;
-  gradient = -glm::dvec2(normal) / normal.z;
-  base = polygon.points[0].z - glm::dot(gradient, glm::dvec2(polygon.points[0]));
-  return true;
-}
-
-/// Separating-axis test of a rectangle against a convex polygon by the polygon's own edges.
-bool meets(const Polygon& polygon, const glm::dvec2& low, const glm::dvec2& high, double turn) {
-  for (int k = 0; k < polygon.count; ++k) {
-    const glm::dvec2 a(polygon.points[k]), edge = glm::dvec2(polygon.points[(k + 1) % polygon.count]) - a;
-    const glm::dvec2 outward = turn * glm::dvec2(edge.y, -edge.x);
-    const glm::dvec2 nearest(outward.x > 0 ? low.x : high.x, outward.y > 0 ? low.y : high.y);
-    if (glm::dot(outward, nearest - a) > 0.0) return false;
-  }
+  polygon.gradient = -glm::dvec2(normal) / normal.z;
+  polygon.base = polygon.points[0].z - glm::dot(polygon.gradient, glm::dvec2(polygon.points[0]));
   return true;
 }
 
@@ -76,11 +67,40 @@ double turnOf(const Polygon& polygon) {
   return area >= 0.0 ? 1.0 : -1.0;
 }
 
-/// Patches as they are found, with their tiles.
+/// Separating-axis test of rectangles against a convex polygon by the polygon's own edges.
+class PolygonEdges {
+ public:
+  explicit PolygonEdges(const Polygon& polygon) : count_(polygon.count) {
+    const double turn = turnOf(polygon);
+    for (int k = 0; k < count_; ++k) {
+      from_[k] = glm::dvec2(polygon.points[k]);
+      const glm::dvec2 edge = glm::dvec2(polygon.points[(k + 1) % count_]) - from_[k];
+      outward_[k] = turn * glm::dvec2(edge.y, -edge.x);
+    }
+  }
+  bool meet(const TangentRect& rect) const {
+    for (int k = 0; k < count_; ++k) {
+      const glm::dvec2 nearest(outward_[k].x > 0 ? rect.low.x : rect.high.x,
+                               outward_[k].y > 0 ? rect.low.y : rect.high.y);
+      if (glm::dot(outward_[k], nearest - from_[k]) > 0.0) return false;
+    }
+    return true;
+  }
+
+ private:
+  glm::dvec2 from_[4], outward_[4];
+  int count_;
+};
+
+/// Patches as they are found.
 struct FoundPatches {
+  struct Patch {
+    std::uint32_t tile = 0, polygon = 0;
+    glm::dvec2 low{0.0}, high{0.0};
+    double iLow = 0.0, iHigh = 0.0;
+  };
   bool wanted = false;
-  std::vector<std::uint32_t> tile;
-  std::vector<ReceiverPatch> patch;
+  std::vector<Patch> patches;
 };
 
 /// What the fragments of a patch are moved by, in the direction of each coordinate in which its plane rises.
@@ -100,14 +120,28 @@ void faceLight(Polygon& polygon, bool closed) {
   if (polygon.turned) polygon.plane = -polygon.plane;
 }
 
-/// One part in a thousand wider than the tile, since fragments find theirs in single precision.
-TangentRect tileRect(const ReceiverTiles& tiles, int x, int y) {
-  const glm::dvec2 low = tiles.low + tiles.tileSize * glm::dvec2(x, y), border = 1e-3 * tiles.tileSize;
-  return {.low = tiles.scale.tangent(low - border),
-          .high = tiles.scale.tangent(low + tiles.tileSize + border)};
-}
+/// Rectangles one part in a thousand wider than tiles, since fragments find theirs in single precision.
+class TileRects {
+ public:
+  explicit TileRects(const ReceiverTiles& tiles) {
+    for (int k = 0; k < std::max(tiles.columns, tiles.rows); ++k) {
+      const glm::dvec2 low = tiles.low + tiles.tileSize * double(k), border = 1e-3 * tiles.tileSize;
+      diagonal_.push_back({.low = tiles.scale.tangent(low - border),
+                           .high = tiles.scale.tangent(low + tiles.tileSize + border)});
+    }
+  }
+  TangentRect at(int x, int y) const {
+    const TangentRect &column = diagonal_[static_cast<std::size_t>(x)],
+                      &row = diagonal_[static_cast<std::size_t>(y)];
+    return {.low = {column.low.x, row.low.y}, .high = {column.high.x, row.high.y}};
+  }
 
-void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& found) {
+ private:
+  std::vector<TangentRect> diagonal_;  ///< of tiles (k, k)
+};
+
+void addPolygon(std::uint32_t number, Polygon& polygon, const TileRects& rects, ReceiverTiles& tiles,
+                FoundPatches& found) {
   const auto clampedIndex = [](double value, int count) {
     return static_cast<int>(std::clamp(std::floor(value), 0.0, static_cast<double>(count - 1)));
   };
@@ -117,22 +151,20 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
   // One part in a thousand of a tile, since fragments find their tile in single precision.
   const int x0 = clampedIndex(from.x - 1e-3, tiles.columns), x1 = clampedIndex(to.x + 1e-3, tiles.columns);
   const int y0 = clampedIndex(from.y - 1e-3, tiles.rows), y1 = clampedIndex(to.y + 1e-3, tiles.rows);
-  glm::dvec2 gradient(0.0);
-  double base = 0.0;
-  const bool isPlane = planeOf(polygon, gradient, base);
+  const bool isPlane = findGradient(polygon);
   const bool many = x1 - x0 > 1 || y1 - y0 > 1;
-  const double turn = many ? turnOf(polygon) : 1.0;
+  const PolygonEdges edges(polygon);
   for (int y = y0; y <= y1; ++y) {
     for (int x = x0; x <= x1; ++x) {
-      const TangentRect tile = tileRect(tiles, x, y);
+      const TangentRect tile = rects.at(x, y);
       const glm::dvec2 low = glm::max(tile.low, glm::dvec2(polygon.low));
       const glm::dvec2 high = glm::min(tile.high, glm::dvec2(polygon.high));
-      if (many && !meets(polygon, tile.low, tile.high, turn)) continue;
+      if (many && !edges.meet(tile)) continue;
       double iLow = polygon.low.z, iHigh = polygon.high.z;
       if (isPlane) {
         const glm::dvec2 middle = 0.5 * (low + high), reach = 0.5 * glm::max(high - low, glm::dvec2(0.0));
-        const double center = base + glm::dot(gradient, middle);
-        const double spread = std::abs(gradient.x) * reach.x + std::abs(gradient.y) * reach.y;
+        const double center = polygon.base + glm::dot(polygon.gradient, middle);
+        const double spread = std::abs(polygon.gradient.x) * reach.x + std::abs(polygon.gradient.y) * reach.y;
         iLow = std::max(iLow, center - spread);
         iHigh = std::min(iHigh, center + spread);
         if (iLow > iHigh) iLow = iHigh = std::clamp(center, polygon.low.z, polygon.high.z);
@@ -140,10 +172,12 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
       const std::size_t index =
           static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) + static_cast<std::size_t>(x);
       if (found.wanted) {
-        found.tile.push_back(static_cast<std::uint32_t>(index));
-        found.patch.push_back({low, glm::max(low, high), gradient, base, iLow, iHigh, polygon.plane,
-                               liftOf(polygon.plane, low, high, iLow, iHigh), polygon.eitherSide,
-                               polygon.turned});
+        found.patches.push_back({.tile = static_cast<std::uint32_t>(index),
+                                 .polygon = number,
+                                 .low = low,
+                                 .high = high,
+                                 .iLow = iLow,
+                                 .iHigh = iHigh});
       }
       TangentBox& box = tiles.boxes[index];
       const double rounding = 2.0 * kPlaceRounding * std::max(std::abs(iLow), std::abs(iHigh));
@@ -156,13 +190,23 @@ void addPolygon(const Polygon& polygon, ReceiverTiles& tiles, FoundPatches& foun
 }
 
 /// Sorts patches by tile.
-void keepPatches(const FoundPatches& found, ReceiverTiles& tiles) {
+void keepPatches(const FoundPatches& found, std::span<const Polygon> polygons, ReceiverTiles& tiles) {
   tiles.firstPatch.assign(tiles.boxes.size() + 1, 0);
-  for (const std::uint32_t tile : found.tile) ++tiles.firstPatch[tile + 1];
+  for (const FoundPatches::Patch& patch : found.patches) ++tiles.firstPatch[patch.tile + 1];
   std::partial_sum(tiles.firstPatch.begin(), tiles.firstPatch.end(), tiles.firstPatch.begin());
   std::vector<std::uint32_t> next(tiles.firstPatch.begin(), tiles.firstPatch.end() - 1);
-  tiles.patches.resize(found.patch.size());
-  for (std::size_t k = 0; k < found.patch.size(); ++k) tiles.patches[next[found.tile[k]]++] = found.patch[k];
+  std::vector<std::uint32_t> sorted(found.patches.size());
+  for (std::size_t k = 0; k < sorted.size(); ++k)
+    sorted[next[found.patches[k].tile]++] = static_cast<std::uint32_t>(k);
+  tiles.patches.reserve(sorted.size());
+  for (const std::uint32_t k : sorted) {
+    const FoundPatches::Patch& patch = found.patches[k];
+    const Polygon& polygon = polygons[patch.polygon];
+    tiles.patches.push_back({patch.low, glm::max(patch.low, patch.high), polygon.gradient, polygon.base,
+                             patch.iLow, patch.iHigh, polygon.plane,
+                             liftOf(polygon.plane, patch.low, patch.high, patch.iLow, patch.iHigh),
+                             polygon.eitherSide, polygon.turned});
+  }
 }
 }  // namespace
 
@@ -217,13 +261,15 @@ ReceiverTiles receiverTiles(const ReceiverSurface& surface, const ListSpace& spa
   tiles.tileSize = size / glm::dvec2(tiles.columns, tiles.rows);
   tiles.boxes.resize(static_cast<std::size_t>(tiles.columns) * static_cast<std::size_t>(tiles.rows));
   FoundPatches found{.wanted = surface.withPatches};
-  for (const Polygon& polygon : polygons) addPolygon(polygon, tiles, found);
-  if (found.wanted) keepPatches(found, tiles);
+  const TileRects rects(tiles);
+  for (std::size_t k = 0; k < polygons.size(); ++k)
+    addPolygon(static_cast<std::uint32_t>(k), polygons[k], rects, tiles, found);
+  if (found.wanted) keepPatches(found, polygons, tiles);
   for (int y = 0; y < tiles.rows; ++y) {
     for (int x = 0; x < tiles.columns; ++x) {
       TangentBox& box = tiles.boxes[static_cast<std::size_t>(y) * static_cast<std::size_t>(tiles.columns) +
                                     static_cast<std::size_t>(x)];
-      const TangentRect tile = tileRect(tiles, x, y);
+      const TangentRect tile = rects.at(x, y);
       box.tLow = glm::vec2(tile.low);
       box.tHigh = glm::vec2(tile.high);
       for (int k = 0; k < 2; ++k) {

@@ -3,9 +3,9 @@
 #include "outlines/tile_lists.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 
+#include "outlines/casters_apart.hpp"
 #include "outlines/tree_calls.hpp"
 
 namespace halfshadow::outlines {
@@ -13,8 +13,13 @@ namespace {
 /// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
 /// few vertices.
 constexpr int kBlock = 8;
-/// Casters of a list that are tested against each other.
-constexpr std::size_t kMostApart = 32;
+/// Working memory.
+struct ListScratch {
+  SimplifyScratch simplify;
+  CasterLoops simplified;
+  std::vector<std::uint8_t> taken;
+  std::vector<TreeCall> calls;
+};
 
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
@@ -121,15 +126,16 @@ float deepestOf(const CasterLoops& caster) {
 }
 
 void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
-                 const TangentBox& receivers, const ListedReceiver& receiver, BlockCasters& result) {
+                 const TangentBox& receivers, const ListedReceiver& receiver, ListScratch& scratch,
+                 BlockCasters& result) {
   result.full = false;
   result.partial.clear();
   result.near.clear();
-  thread_local CasterLoops simplified;
+  CasterLoops& simplified = scratch.simplified;
   const OuterSides sides(loops.light, receivers);
   const NearSurface* around = nullptr;
   const auto add = [&](const CasterLoops& caster) {
-    const Coverage coverage = simplify(caster, loops.light, receivers, simplified);
+    const Coverage coverage = simplify(caster, loops.light, receivers, scratch.simplify, simplified);
     if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
     result.full = result.full || coverage == Coverage::full;
   };
@@ -160,7 +166,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     result.near.push_back(std::move(near));
     return true;
   };
-  thread_local std::vector<std::uint8_t> taken;
+  std::vector<std::uint8_t>& taken = scratch.taken;
   taken.assign(loops.casters.size(), 0);
   for (const CasterCluster& cluster : loops.clusters) {
     const CasterCluster::Stage* stage = cluster.stageFor(receivers.iHigh);
@@ -170,6 +176,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   }
   for (const CasterLoops& caster : loops.casters) {
     if (taken[static_cast<std::size_t>(&caster - loops.casters.data())] != 0) continue;
+    if (!caster.isRoom && !caster.enclosesLight && sides.code(caster.partLow, caster.partHigh) != 0) continue;
     around = nullptr;
     const glm::vec3 low(glm::vec2(caster.low), deepestOf(caster));
     if (low.z >= receivers.iHigh) {
@@ -202,62 +209,14 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
   }
 }
 
-/// Ranges of a caster along an axis of the light, as the corners of a receiver box see it.
-struct SeenRange {
-  std::array<float, 4> low, high;
-};
-
-/// Whether every two casters of the list are separated along an axis of the light for all receivers of the
-/// box. E before F along x is (tE - tP)(iF - iP) < (tF - tP)(iE - iP), which is linear in P, since the terms
-/// in tP·iP cancel: what holds at the corners holds inside.
-bool castersApart(std::span<const ListRecord> list, const TangentBox& receivers) {
-  thread_local std::vector<std::array<SeenRange, 2>> casters;
-  casters.clear();
-  bool starts = true;
-  for (const ListRecord& record : list) {
-    if (record.behindFacet != ListRecord::kVertex || record.ti.z <= receivers.iHigh) return false;
-    if (starts) {
-      SeenRange none;
-      none.low.fill(1e30f), none.high.fill(-1e30f);
-      casters.push_back({none, none});
-      if (casters.size() > kMostApart) return false;
-    }
-    starts = record.end != ListRecord::End::none;
-    for (std::size_t corner = 0; corner < 4; ++corner) {
-      const glm::vec2 t = corner & 1 ? receivers.tHigh : receivers.tLow;
-      const float inverse = 1.0f / (record.ti.z - (corner & 2 ? receivers.iHigh : receivers.iLow));
-      for (int axis = 0; axis < 2; ++axis) {
-        SeenRange& range = casters.back()[static_cast<std::size_t>(axis)];
-        const float seen = (record.ti[axis] - t[axis]) * inverse;
-        range.low[corner] = std::min(range.low[corner], seen);
-        range.high[corner] = std::max(range.high[corner], seen);
-      }
-    }
-  }
-  const auto before = [](const SeenRange& a, const SeenRange& b) {
-    for (std::size_t c = 0; c < 4; ++c) {
-      if (a.high[c] > b.low[c]) return false;
-    }
-    return true;
-  };
-  for (std::size_t k = 0; k < casters.size(); ++k) {
-    for (std::size_t m = 0; m < k; ++m) {
-      const auto &a = casters[k], &b = casters[m];
-      if (!before(a[0], b[0]) && !before(b[0], a[0]) && !before(a[1], b[1]) && !before(b[1], a[1]))
-        return false;
-    }
-  }
-  return true;
-}
-
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
                   const ReceiverSet& set, const ListedReceiver& receiver, ListedEdges edges,
-                  NearSurfaces& surfaces, TileLists& lists) {
+                  NearSurfaces& surfaces, ListScratch& scratch, TileLists& lists) {
   std::vector<ListRecord>& records = lists.records;
   const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
-  thread_local CasterLoops simplified;
-  thread_local std::vector<TreeCall> calls;
+  CasterLoops& simplified = scratch.simplified;
+  std::vector<TreeCall>& calls = scratch.calls;
   calls.clear();
   for (std::size_t s = 0; s < subLights.size(); ++s) {
     const std::size_t before = records.size();
@@ -274,7 +233,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
       const BlockCasters::Partial& partial = block[s].partial[c];
       const bool inside =
           partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
-      add(inside ? Coverage::full : simplify(partial.loops, loops.light, receivers, simplified));
+      add(inside ? Coverage::full
+                 : simplify(partial.loops, loops.light, receivers, scratch.simplify, simplified));
     }
     const NearSurface* treed = nullptr;      // the last surface whose trees are in the list
     const NearSurface* firstSide = nullptr;  // of the sheet whose first side ends with the last record
@@ -287,7 +247,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         full = full || caster->isRoom;
         if (full) break;
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
-          if (!full) add(simplify(layer, loops.light, receivers, simplified));
+          if (!full) add(simplify(layer, loops.light, receivers, scratch.simplify, simplified));
         });
       } else {
         // Only of its own tiles the patches are known.
@@ -307,7 +267,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         if (dense) leadIntoTrees();
         if (surface == treed) continue;
         add(simplify(*surface, facets, loops.light,
-                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, choice, simplified));
+                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, choice,
+                     scratch.simplify, simplified));
         // The sides of a sheet cover the same ground.
         const bool sided = !surface->closed && !isOwn && records.size() > own;
         if (sided && firstSide == surface) records[own - 1].firstSide = true;
@@ -350,6 +311,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
   lists.tiles.resize(tiles.boxes.size());
   std::vector<BlockCasters> block(subLights.size());
   BlockFacets facets;
+  ListScratch scratch;
   for (int y0 = 0; y0 < tiles.rows; y0 += kBlock) {
     for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
       const TangentBox all = blockBox(tiles, x0, y0);
@@ -358,7 +320,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
       if (lists.cutShort) return lists;
       facets.clear();
       for (std::size_t s = 0; s < subLights.size(); ++s) {
-        simplifyAll(subLights[s], surfaces, facets, all, receiver, block[s]);
+        simplifyAll(subLights[s], surfaces, facets, all, receiver, scratch, block[s]);
       }
       for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
         for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
@@ -370,7 +332,7 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
           lists.tiles[tile] =
               tileList(subLights, block,
                        {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
-                       receiver, edges, surfaces, lists);
+                       receiver, edges, surfaces, scratch, lists);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }

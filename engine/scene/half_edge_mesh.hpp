@@ -160,8 +160,10 @@ struct Silhouette {
     }
   };
   Counters counters;
+};
 
-  // Working memory, kept so that extraction allocates nothing after the first call.
+/// Working memory of extractSilhouette(), for any mesh: with the same one again it allocates nothing.
+struct SilhouetteScratch {
   struct Link {
     std::uint32_t to = 0;
     std::int32_t next = -1;
@@ -176,6 +178,9 @@ struct Silhouette {
 /// The boundary of what `mesh` shows to a light at `lightObject` (object space): loops that run
 /// counter-clockwise seen from the light around what they cover. A loop counts once per layer; the boundary
 /// of a set of faces is always a union of closed loops, whatever the mesh. Overwrites `silhouette`.
+void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, SilhouetteScratch& scratch,
+                       Silhouette& silhouette);
+/// The same with working memory of its own.
 void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette);
 
 /// Half-edges of one object, built when first asked for: scenes drawn with depth maps never need them.

@@ -16,32 +16,18 @@ glm::dvec3 atLeast(const glm::dvec3& halfVector, const glm::dvec3& fallback, dou
   return own >= length ? halfVector : (own > 0.0 ? halfVector * (length / own) : fallback * length);
 }
 
-/// Appends a closed loop in (a, b, h).
-void appendLoop(const std::vector<glm::dvec3>& loop, Turn turn, LightSilhouettes::Caster& caster,
-                LightSilhouettes& result) {
-  result.loops.push_back(
-      {static_cast<std::uint32_t>(result.points.size()), static_cast<std::uint32_t>(loop.size())});
-  const auto add = [&](const glm::dvec3& p) {
-    result.points.push_back(p);
-    caster.low = glm::min(caster.low, glm::vec3(p));
-    caster.high = glm::max(caster.high, glm::vec3(p));
-  };
-  if (turn == Turn::reverse) {
-    std::for_each(loop.rbegin(), loop.rend(), add);
-  } else {
-    std::for_each(loop.begin(), loop.end(), add);
-  }
+/// Appends the scratch's loop to those of the last caster that `result` gets.
+void appendLoop(Turn turn, LoopScratch& scratch, LightSilhouettes::Caster& caster, LightSilhouettes& result) {
+  if (turn == Turn::reverse) std::ranges::reverse(scratch.loop);
+  result.addLoop(scratch.loop);
+  caster.include(scratch.loop);
 }
 
-/// A caster's silhouettes seen from `sourceWorld`, appended.
-void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm::dvec3& sourceWorld,
-                  double minHeight, LightSilhouettes& result) {
-  thread_local Silhouette silhouette;
-  thread_local std::vector<glm::dvec3> loopPoints;
-  thread_local std::vector<std::vector<glm::dvec3>> cutLoops;
+/// A caster's silhouette in the light's coordinates, appended.
+void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, const LightPlane& plane,
+                  double minHeight, LoopScratch& scratch, LightSilhouettes& result) {
   const glm::dmat3 linear(caster.worldFromObject);
   const glm::dvec3 originWorld(caster.worldFromObject[3]);
-  extractSilhouette(*caster.mesh, glm::inverse(linear) * (sourceWorld - originWorld), silhouette);
   result.counters += silhouette.counters;
   // (a, b, h) = lightFromObject · object + offset; the large translations cancel in double.
   const AffineMap lightFromObject{plane.axes * linear, plane.fromWorld(originWorld)};
@@ -60,17 +46,21 @@ void appendCaster(const PlacedCaster& caster, const LightPlane& plane, const glm
         .enclosesLight = part.enclosesLight};
     const HeightRange range = heightRange(caster.mesh->parts()[part.part].bounds, lightFromObject, minHeight);
     if (range == HeightRange::through) {
-      cutLoops.clear();
-      cutSilhouette(*caster.mesh, silhouette, part, lightFromObject, minHeight, cutLoops);
-      for (const std::vector<glm::dvec3>& loop : cutLoops) appendLoop(loop, turn, placed, result);
+      scratch.cutLoops.clear();
+      cutSilhouette(*caster.mesh, silhouette, part, lightFromObject, minHeight, scratch.cutLoops);
+      for (const std::vector<glm::dvec3>& loop : scratch.cutLoops) {
+        scratch.loop = loop;
+        appendLoop(turn, scratch, placed, result);
+      }
     }
     for (std::uint32_t l = 0; range == HeightRange::above && l < part.loopCount; ++l) {
       const Silhouette::Loop& loop = silhouette.loops[part.firstLoop + l];
-      loopPoints.clear();
+      scratch.loop.clear();
       for (std::uint32_t i = 0; i < loop.count; ++i) {
-        loopPoints.push_back(lightFromObject(caster.mesh->positions()[silhouette.vertices[loop.first + i]]));
+        const std::uint32_t vertex = silhouette.vertices[loop.first + i];
+        scratch.loop.push_back(lightFromObject(caster.mesh->positions()[vertex]));
       }
-      appendLoop(loopPoints, turn, placed, result);
+      appendLoop(turn, scratch, placed, result);
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
@@ -108,6 +98,13 @@ glm::dvec3 LightPlane::toWorld(const glm::dvec3& abh) const {
   return centerWorld + abh.x * halfU + abh.y * halfV + abh.z * toUnitHeight;
 }
 
+void LightSilhouettes::Caster::include(std::span<const glm::dvec3> loop) {
+  for (const glm::dvec3& p : loop) {
+    low = glm::min(low, glm::vec3(p));
+    high = glm::max(high, glm::vec3(p));
+  }
+}
+
 void LightSilhouettes::clear() {
   points.clear();
   loops.clear();
@@ -142,7 +139,13 @@ void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& p
                       double sourceB, double minHeight, LightSilhouettes& result, LayerSplit split) {
   result.clear();
   const glm::dvec3 sourceWorld = plane.toWorld({sourceA, sourceB, 0.0});
-  for (const PlacedCaster& caster : casters) appendCaster(caster, plane, sourceWorld, minHeight, result);
+  SilhouetteScratch scratch;
+  LoopScratch loops;
+  Silhouette silhouette;
+  for (const PlacedCaster& caster : casters) {
+    extractSilhouette(*caster.mesh, caster.objectFromWorld(sourceWorld), scratch, silhouette);
+    appendCaster(caster, silhouette, plane, minHeight, loops, result);
+  }
   splitLayers(result, sourceA, sourceB, split);
 }
 
@@ -151,7 +154,8 @@ bool LightSilhouetteCache::View::operator==(const View& other) const {
          sourceB == other.sourceB && minHeight == other.minHeight && split == other.split;
 }
 
-const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaster> casters,
+const LightSilhouettes& LightSilhouetteCache::update(CasterSilhouettes& extracted,
+                                                     std::span<const PlacedCaster> casters,
                                                      const LightPlane& plane, double sourceA, double sourceB,
                                                      double minHeight, LayerSplit split) {
   counters_ = {};
@@ -162,7 +166,7 @@ const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaste
     view_ = view;
     for (auto& [object, entry] : entries_) entry.revision = 0;
   }
-  const glm::dvec3 sourceWorld = plane.toWorld({sourceA, sourceB, 0.0});
+  const LightPoint point{{sourceA, sourceB}, plane.toWorld({sourceA, sourceB, 0.0})};
   ++frame_;
   order_.resize(casters.size());
   for (std::size_t i = 0; i < casters.size(); ++i) {
@@ -176,11 +180,11 @@ const LightSilhouettes& LightSilhouetteCache::update(std::span<const PlacedCaste
       ++counters_.reused;
     } else {
       entry.silhouettes.clear();
-      appendCaster(caster, plane, sourceWorld, minHeight, entry.silhouettes);
+      appendCaster(caster, extracted.of(caster, point), plane, minHeight, scratch_, entry.silhouettes);
       splitLayers(entry.silhouettes, sourceA, sourceB, split);
       entry.revision = caster.revision;
       entry.mesh = caster.mesh;
-      ++counters_.extracted;
+      ++counters_.placed;
       changedObjects_.push_back(caster.object);
       changed = true;
     }

@@ -10,7 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
-#include "scene/half_edge_mesh.hpp"
+#include "scene/caster_silhouettes.hpp"
 #include "scene/light.hpp"
 
 namespace halfshadow::scene {
@@ -38,14 +38,6 @@ struct LightPlane {
   glm::dmat3 axes{1.0};     ///< (a, b, h) = axes · (world - centerWorld)
 };
 
-/// A caster's mesh where it stands.
-struct PlacedCaster {
-  const HalfEdgeMesh* mesh = nullptr;
-  glm::dmat4 worldFromObject{1.0};
-  std::uint32_t object = 0;    ///< the caller's number
-  std::uint64_t revision = 0;  ///< of mesh and place, for LightSilhouetteCache; 0 = not known
-};
-
 struct LightSilhouettes {
   struct Loop {
     std::uint32_t first = 0, count = 0;  ///< in `points`, closed
@@ -71,6 +63,9 @@ struct LightSilhouettes {
     /// The source lies inside it: nothing outside sees the light, and for receivers inside it is the solid
     /// around a room. Its loops tell nothing.
     bool enclosesLight = false;
+
+    /// Widens `low` and `high`.
+    void include(std::span<const glm::dvec3> loop);
   };
   /// (a, b, h), all with h >= `minHeight`; loops run counter-clockwise in (a, b) around what they cover. In
   /// double: far from the light all heights are about equal.
@@ -110,22 +105,28 @@ void lightSilhouettes(std::span<const PlacedCaster> casters, const LightPlane& p
                       double sourceB, double minHeight, LightSilhouettes& result,
                       LayerSplit split = LayerSplit::none);
 
-/// Silhouettes seen from one point of one light, extracted again only for casters that changed.
+/// Working memory of LightSilhouetteCache.
+struct LoopScratch {
+  std::vector<glm::dvec3> loop;
+  std::vector<std::vector<glm::dvec3>> cutLoops;
+};
+
+/// Silhouettes seen from one point of one light in the coordinates of a plane, placed again only for casters
+/// that changed.
 class LightSilhouetteCache {
  public:
-  /// Same result as lightSilhouettes(). A caster is known by its `object` (and its place among casters that
-  /// share one). A light that moved, another source point or split extracts everything
-  /// anew. The reference lasts
-  /// until the next call.
-  const LightSilhouettes& update(std::span<const PlacedCaster> casters, const LightPlane& plane,
-                                 double sourceA, double sourceB, double minHeight,
+  /// Same result as lightSilhouettes(), from silhouettes that `extracted` has or finds. A caster is known by
+  /// its `object` (and its place among casters that share one). A light that moved, another source point or
+  /// split places everything anew. The reference lasts until the next call.
+  const LightSilhouettes& update(CasterSilhouettes& extracted, std::span<const PlacedCaster> casters,
+                                 const LightPlane& plane, double sourceA, double sourceB, double minHeight,
                                  LayerSplit split = LayerSplit::none);
 
   struct Counters {
-    std::uint32_t extracted = 0, reused = 0;  ///< casters
+    std::uint32_t placed = 0, reused = 0;  ///< casters
   };
   Counters counters() const { return counters_; }  ///< of the last update()
-  /// Casters that the last update() extracted, by their `object`.
+  /// Casters that the last update() placed, by their `object`.
   std::span<const std::uint32_t> changedObjects() const { return changedObjects_; }
   /// Counts up whenever the result differs from the one before: what was made from it is stale.
   std::uint64_t generation() const { return generation_; }
@@ -148,6 +149,7 @@ class LightSilhouetteCache {
   std::vector<std::uint64_t> order_;                  ///< keys of what is in `result_`
   std::vector<std::uint32_t> changedObjects_;
   LightSilhouettes result_;
+  LoopScratch scratch_;
   Counters counters_;
   std::uint64_t frame_ = 0, generation_ = 0;
 };

@@ -25,15 +25,15 @@ Facing clusterFacing(const FaceCluster& cluster, const glm::vec3& light) {
   return kMixed;
 }
 
-void findFacing(const HalfEdgeMesh& mesh, const glm::vec3& light, Silhouette& s) {
+void findFacing(const HalfEdgeMesh& mesh, const glm::vec3& light, SilhouetteScratch& scratch, Silhouette& s) {
   const std::span<const FaceCluster> clusters = mesh.clusters();
   const std::span<const glm::vec4> planes = mesh.facePlanes();
   s.facing.resize(mesh.faces().size());
-  s.clusterFacing.resize(clusters.size());
+  scratch.clusterFacing.resize(clusters.size());
   for (std::size_t c = 0; c < clusters.size(); ++c) {
     const FaceCluster& cluster = clusters[c];
     const Facing facing = clusterFacing(cluster, light);
-    s.clusterFacing[c] = facing;
+    scratch.clusterFacing[c] = facing;
     std::uint8_t* const faces = s.facing.data() + cluster.firstFace;
     if (facing != kMixed) {
       std::memset(faces, facing, cluster.faceCount);
@@ -48,22 +48,22 @@ void findFacing(const HalfEdgeMesh& mesh, const glm::vec3& light, Silhouette& s)
   }
 }
 
-void link(Silhouette& s, std::uint32_t from, std::uint32_t to) {
-  if (s.firstLink[from] < 0) s.starts.push_back(from);
-  s.links.push_back({to, s.firstLink[from]});
-  s.firstLink[from] = static_cast<std::int32_t>(s.links.size()) - 1;
+void link(SilhouetteScratch& scratch, std::uint32_t from, std::uint32_t to) {
+  if (scratch.firstLink[from] < 0) scratch.starts.push_back(from);
+  scratch.links.push_back({to, scratch.firstLink[from]});
+  scratch.firstLink[from] = static_cast<std::int32_t>(scratch.links.size()) - 1;
 }
 
 /// Walks linked edges into loops. Every vertex has as many edges in as out, so a walk ends where it began.
-void chain(Silhouette& s) {
-  for (const std::uint32_t start : s.starts) {
-    while (s.firstLink[start] >= 0) {
+void chain(SilhouetteScratch& scratch, Silhouette& s) {
+  for (const std::uint32_t start : scratch.starts) {
+    while (scratch.firstLink[start] >= 0) {
       const auto first = static_cast<std::uint32_t>(s.vertices.size());
       std::uint32_t at = start;
       do {
         s.vertices.push_back(at);
-        const Silhouette::Link& taken = s.links[static_cast<std::size_t>(s.firstLink[at])];
-        s.firstLink[at] = taken.next;
+        const SilhouetteScratch::Link& taken = scratch.links[static_cast<std::size_t>(scratch.firstLink[at])];
+        scratch.firstLink[at] = taken.next;
         at = taken.to;
       } while (at != start);
       const auto count = static_cast<std::uint32_t>(s.vertices.size()) - first;
@@ -75,8 +75,8 @@ void chain(Silhouette& s) {
       }
     }
   }
-  s.links.clear();
-  s.starts.clear();
+  scratch.links.clear();
+  scratch.starts.clear();
 }
 enum class Side { facing, away };
 
@@ -128,9 +128,9 @@ std::uint32_t findRegions(const HalfEdgeMesh& mesh, const CasterPart& part, Side
 
 /// For each region the boundary of its faces, in the direction of linkBoundary().
 void collectRegionEdges(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, std::uint32_t count,
-                        Silhouette& s) {
-  s.regionEdges.resize(std::max<std::size_t>(s.regionEdges.size(), count));
-  for (auto& edges : s.regionEdges) edges.clear();
+                        const Silhouette& s, SilhouetteScratch& scratch) {
+  scratch.regionEdges.resize(std::max<std::size_t>(scratch.regionEdges.size(), count));
+  for (auto& edges : scratch.regionEdges) edges.clear();
   const auto regionOf = [&](std::uint32_t face) {
     const bool within = face != kNoFace && (s.facing[face] != 0) == (side == Side::facing);
     return within ? s.regions[face] : kNoFace;
@@ -139,19 +139,20 @@ void collectRegionEdges(const HalfEdgeMesh& mesh, const CasterPart& part, Side s
     const std::uint32_t here = regionOf(edge.face), beyond = regionOf(edge.opposite);
     if (here == beyond) continue;
     const glm::uvec2 along(edge.from, edge.to), back(edge.to, edge.from);
-    if (here != kNoFace) s.regionEdges[here].push_back(side == Side::facing ? along : back);
-    if (beyond != kNoFace) s.regionEdges[beyond].push_back(side == Side::facing ? back : along);
+    if (here != kNoFace) scratch.regionEdges[here].push_back(side == Side::facing ? along : back);
+    if (beyond != kNoFace) scratch.regionEdges[beyond].push_back(side == Side::facing ? back : along);
   }
 }
 
 /// Links the boundary of the part's faces that look towards the light; or of those that look away, turned
 /// round.
-void linkBoundary(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, Silhouette& s) {
+void linkBoundary(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, SilhouetteScratch& scratch,
+                  Silhouette& s) {
   for (const EdgeGroup& group : mesh.edgeGroups().subspan(part.firstGroup, part.groupCount)) {
-    const std::uint8_t a = s.clusterFacing[group.clusterA];
+    const std::uint8_t a = scratch.clusterFacing[group.clusterA];
     if (group.clusterB == kNoFace) {
       if (a == (side == Side::facing ? kAway : kTowards)) continue;
-    } else if (a != kMixed && a == s.clusterFacing[group.clusterB]) {
+    } else if (a != kMixed && a == scratch.clusterFacing[group.clusterB]) {
       continue;
     }
     s.counters.edgesVisited += group.edgeCount;
@@ -161,37 +162,39 @@ void linkBoundary(const HalfEdgeMesh& mesh, const CasterPart& part, Side side, S
       const bool beyond = edge.opposite != kNoFace ? s.facing[edge.opposite] != 0 : side == Side::away;
       if (facing == beyond) continue;
       if (facing) {
-        link(s, edge.from, edge.to);
+        link(scratch, edge.from, edge.to);
       } else {
-        link(s, edge.to, edge.from);
+        link(scratch, edge.to, edge.from);
       }
     }
   }
 }
 }  // namespace
 
-void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette) {
+void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, SilhouetteScratch& scratch,
+                       Silhouette& silhouette) {
   Silhouette& s = silhouette;
   s.vertices.clear();
   s.loops.clear();
   s.parts.clear();
   s.counters = {};
   // Chaining takes all links out again, so that what is there is -1.
-  if (s.firstLink.size() < mesh.positions().size()) s.firstLink.resize(mesh.positions().size(), -1);
-  findFacing(mesh, glm::vec3(lightObject - mesh.origin()), s);
+  if (scratch.firstLink.size() < mesh.positions().size())
+    scratch.firstLink.resize(mesh.positions().size(), -1);
+  findFacing(mesh, glm::vec3(lightObject - mesh.origin()), scratch, s);
   for (std::uint32_t i = 0; i < mesh.parts().size(); ++i) {
     const CasterPart& part = mesh.parts()[i];
     for (const Side side : {Side::facing, Side::away}) {
       if (side == Side::away && part.closed) break;
       const std::uint32_t regions = findRegions(mesh, part, side, s);
       if (regions > 1) {
-        collectRegionEdges(mesh, part, side, regions, s);
+        collectRegionEdges(mesh, part, side, regions, s, scratch);
         for (std::uint32_t region = 0; region < regions; ++region) {
           Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
           found.turnedAway = side == Side::away;
           found.region = region;
-          for (const glm::uvec2& edge : s.regionEdges[region]) link(s, edge.x, edge.y);
-          chain(s);
+          for (const glm::uvec2& edge : scratch.regionEdges[region]) link(scratch, edge.x, edge.y);
+          chain(scratch, s);
           found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
           if (found.loopCount > 0) s.parts.push_back(found);
         }
@@ -199,13 +202,18 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
       }
       Silhouette::Part found{.part = i, .firstLoop = static_cast<std::uint32_t>(s.loops.size())};
       found.turnedAway = side == Side::away;
-      linkBoundary(mesh, part, side, s);
-      chain(s);
+      linkBoundary(mesh, part, side, scratch, s);
+      chain(scratch, s);
       found.loopCount = static_cast<std::uint32_t>(s.loops.size()) - found.firstLoop;
       found.enclosesLight = enclosesPoint(mesh, part, lightObject);
       if (found.loopCount > 0 || found.enclosesLight) s.parts.push_back(found);
     }
   }
+}
+
+void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette) {
+  SilhouetteScratch scratch;
+  extractSilhouette(mesh, lightObject, scratch, silhouette);
 }
 
 }  // namespace halfshadow::scene

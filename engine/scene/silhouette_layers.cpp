@@ -5,8 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/covered_levels.hpp"
-
 namespace halfshadow::scene {
 namespace {
 /// Jagged outlines of fine meshes cover slivers twice: they cost vertices and darken nothing that is seen.
@@ -29,14 +27,16 @@ class LayerSplitter {
     }
     if (split == LayerSplit::outline) levels.resize(std::min<std::size_t>(levels.size(), 1));
     dropSmallLoops(levels);
+    std::vector<const LightSilhouettes::Caster*> together;
+    for (const LightSilhouettes::Caster& entry : entries) together.push_back(&entry);
     if (split != LayerSplit::alongside) {
-      for (const CoveredLevels::Level& level : levels) emit(entries, level, out);
+      for (const CoveredLevels::Level& level : levels) addTogether(together, level, out);
       return;
     }
     const std::size_t first = out.casters.size();
     out.addCaster(source_, entries[0]);
     out.casters[first].layerCount = static_cast<std::uint32_t>(levels.size());
-    for (const CoveredLevels::Level& level : levels) emit(entries, level, out);
+    for (const CoveredLevels::Level& level : levels) addTogether(together, level, out);
     for (const LightSilhouettes::Caster& entry : entries.subspan(1)) {
       out.addCaster(source_, entry);
       out.casters.back().layersBefore = true;
@@ -68,28 +68,6 @@ class LayerSplitter {
     while (levels.size() > 1 && levels.back().empty()) levels.pop_back();
   }
 
-  static void emit(std::span<const LightSilhouettes::Caster> entries, const CoveredLevels::Level& level,
-                   LightSilhouettes& out) {
-    LightSilhouettes::Caster entry = entries[0];
-    for (const LightSilhouettes::Caster& other : entries) {
-      entry.deepest = std::max(entry.deepest, other.deepest);
-      entry.closed = entry.closed && other.closed;
-    }
-    entry.turnedAway = false;
-    entry.firstLoop = static_cast<std::uint32_t>(out.loops.size());
-    entry.loopCount = static_cast<std::uint32_t>(level.size());
-    entry.low = glm::vec3(1e30f);
-    entry.high = glm::vec3(-1e30f);
-    for (const CoveredLevels::Loop& loop : level) {
-      out.addLoop(loop.points);
-      for (const glm::dvec3& p : loop.points) {
-        entry.low = glm::min(entry.low, glm::vec3(p));
-        entry.high = glm::max(entry.high, glm::vec3(p));
-      }
-    }
-    out.casters.push_back(entry);
-  }
-
   const LightSilhouettes& source_;
   glm::dvec2 sourcePoint_;
   CoveredLevels arrangement_;
@@ -111,6 +89,26 @@ void splitLayers(LightSilhouettes& silhouettes, double sourceA, double sourceB, 
   }
   result.counters = silhouettes.counters;
   silhouettes = std::move(result);
+}
+
+void addTogether(std::span<const LightSilhouettes::Caster* const> entries, const CoveredLevels::Level& level,
+                 LightSilhouettes& out) {
+  LightSilhouettes::Caster all = *entries[0];
+  for (const LightSilhouettes::Caster* entry : entries) {
+    all.deepest = std::max(all.deepest, entry->deepest);
+    all.closed = all.closed && entry->closed;
+    all.partWorld.include(entry->partWorld);
+  }
+  all.turnedAway = false;
+  all.firstLoop = static_cast<std::uint32_t>(out.loops.size());
+  all.loopCount = static_cast<std::uint32_t>(level.size());
+  all.low = glm::vec3(1e30f);
+  all.high = glm::vec3(-1e30f);
+  for (const CoveredLevels::Loop& loop : level) {
+    out.addLoop(loop.points);
+    all.include(loop.points);
+  }
+  out.casters.push_back(all);
 }
 
 }  // namespace halfshadow::scene

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 /// @file
-/// Takes the silhouette of a caster that covers itself apart into layers (internal to engine/scene).
+/// Takes the silhouette of a caster that covers itself apart into layers.
 #pragma once
 
+#include "scene/covered_levels.hpp"
 #include "scene/light_silhouettes.hpp"
 
 namespace halfshadow::scene {
@@ -17,5 +18,10 @@ namespace halfshadow::scene {
 /// with half the vertices. Based on: Seifert, "Über das Geschlecht von Knoten", 1935 (joining strands at
 /// crossings).
 void splitLayers(LightSilhouettes& silhouettes, double sourceA, double sourceB, LayerSplit split);
+
+/// Appends one entry for what several, at least one, cover together, with these loops. It has the first one's
+/// numbers and is as deep as the deepest.
+void addTogether(std::span<const LightSilhouettes::Caster* const> entries, const CoveredLevels::Level& level,
+                 LightSilhouettes& out);
 
 }  // namespace halfshadow::scene

@@ -40,11 +40,18 @@ float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
 #endif
 #endif
 
-float hs_pcfGrid() {
-  HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  // First texel centre of the kernel that is centred on the receiver.
+// Centre of the first texel of the kernel that is centred on the receiver; what all taps are biased by, and how much
+// deeper the receiver's plane is at that texel than at the receiver.
+HS_HIGHP vec2 hs_firstTexel(out HS_HIGHP float bias, out HS_HIGHP float planeFirst) {
+  bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
   HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
-  HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
+  planeFirst = dot(hs_gradient, first - hs_texel);
+  return first;
+}
+
+float hs_pcfGrid() {
+  HS_HIGHP float bias, planeFirst;
+  HS_HIGHP vec2 first = hs_firstTexel(bias, planeFirst);
   float lit = 0.0;
 #ifdef HS_ROWS
   HS_HIGHP vec2 uv = first * u_map.y;
@@ -78,9 +85,8 @@ float hs_pcfGrid() {
 // The same sum in one loop that ends after `count` taps (0 or all): drivers that evaluate both sides of an
 // `if` still leave a loop early.
 float hs_pcfGridBounded(float count) {
-  HS_HIGHP float bias = u_bias.x + u_bias.y * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  HS_HIGHP vec2 first = floor(hs_texel - 0.5 * float(HS_KERNEL) + 0.5) + 0.5;
-  HS_HIGHP float planeFirst = dot(hs_gradient, first - hs_texel);
+  HS_HIGHP float bias, planeFirst;
+  HS_HIGHP vec2 first = hs_firstTexel(bias, planeFirst);
   float lit = 0.0;
 #ifdef HS_ROWS
   HS_HIGHP vec2 uv = first * u_map.y;

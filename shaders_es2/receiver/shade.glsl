@@ -27,10 +27,11 @@ uniform HS_HIGHP sampler2D u_baseColorTexture;
 #define HS_LEAST 1e-30
 #endif
 
-// v in units in which its square neither vanishes nor overflows; scale: what turns v's own lengths into those units.
-HS_HIGHP vec3 hs_squarable(HS_HIGHP vec3 v, out HS_HIGHP float scale) {
+// v in units in which its square neither vanishes nor overflows, if it is not shorter than `least`; scale: what turns
+// v's own lengths into those units.
+HS_HIGHP vec3 hs_squarable(HS_HIGHP vec3 v, float least, out HS_HIGHP float scale) {
 #ifdef HS_NO_HIGHP
-  scale = 1.0 / max(max(max(abs(v.x), abs(v.y)), abs(v.z)), 1e-4);
+  scale = 1.0 / max(max(max(abs(v.x), abs(v.y)), abs(v.z)), least);
   return v * scale;
 #else
   scale = 1.0;
@@ -42,13 +43,12 @@ HS_HIGHP vec3 hs_squarable(HS_HIGHP vec3 v, out HS_HIGHP float scale) {
 // eye.
 HS_HIGHP vec4 hs_shadingNormal() {
   HS_HIGHP vec3 n = v_shadeNormal;
+  HS_HIGHP float scale;
 #ifdef HS_DERIVATIVES
   if (dot(n, n) < 1e-12) n = cross(dFdx(v_shadePosition), dFdy(v_shadePosition));
-#ifdef HS_NO_HIGHP
-  n /= max(max(max(abs(n.x), abs(n.y)), abs(n.z)), 1e-7);  // its square would vanish
+  n = hs_squarable(n, 1e-7, scale);
 #endif
-#endif
-  HS_HIGHP float scale = inversesqrt(max(dot(n, n), HS_LEAST));
+  scale = inversesqrt(max(dot(n, n), HS_LEAST));
   return vec4(n, dot(n, u_eye.xyz - v_shadePosition) < 0.0 ? -scale : scale);
 }
 
@@ -71,7 +71,7 @@ float hs_sky(HS_HIGHP vec4 n) { return 0.13 + 0.07 * (n.y * n.w); }
 vec3 hs_sheen(HS_HIGHP vec4 n, vec3 albedo) {
 #ifdef HS_SHEEN
   HS_HIGHP float scale;
-  HS_HIGHP vec3 toEye = hs_squarable(u_eye.xyz - v_shadePosition, scale);
+  HS_HIGHP vec3 toEye = hs_squarable(u_eye.xyz - v_shadePosition, 1e-4, scale);
   float facing = dot(n.xyz, toEye) * (n.w * inversesqrt(max(dot(toEye, toEye), HS_LEAST)));
   float grazing = 1.0 - clamp(facing, 0.0, 1.0);
   float darkness = clamp(1.0 - 4.0 * max(max(albedo.r, albedo.g), albedo.b), 0.0, 1.0);
@@ -86,7 +86,7 @@ vec3 hs_sheen(HS_HIGHP vec4 n, vec3 albedo) {
 vec3 hs_lightTerm(HS_HIGHP vec4 n, HS_HIGHP vec4 light, HS_HIGHP vec4 emission, HS_HIGHP vec4 color) {
 #ifdef HS_LIGHTS_APART
   HS_HIGHP float scale;
-  HS_HIGHP vec3 fromLight = hs_squarable(v_shadePosition - light.xyz, scale);
+  HS_HIGHP vec3 fromLight = hs_squarable(v_shadePosition - light.xyz, 1e-4, scale);
 #else
   const float scale = 1.0;
   HS_HIGHP vec3 fromLight = v_shadePosition;

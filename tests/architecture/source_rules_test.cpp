@@ -88,6 +88,20 @@ TEST(SourceRules, OnlyTheGlModuleTouchesTheDriver) {
   EXPECT_GT(checked, 50);
 }
 
+// One service of each light extracts silhouettes, so that none is extracted twice.
+TEST(SourceRules, SilhouettesAreExtractedInOnePlace) {
+  const std::regex kExtracts("\\b(extractSilhouette|lightSilhouettes)\\s*\\(");
+  int services = 0;
+  for (const SourceFile& file : sourceTree()) {
+    if (!file.path.starts_with("engine/") || !isCpp(file)) continue;
+    const bool extracts = std::regex_search(withoutComments(file.text), kExtracts);
+    services += extracts && file.path == "engine/scene/caster_silhouettes.cpp";
+    if (!file.path.starts_with("engine/scene/"))
+      EXPECT_FALSE(extracts) << file.path << ": take them from LightScene::silhouettes";
+  }
+  EXPECT_EQ(services, 1);
+}
+
 TEST(SourceRules, HeadersAreGuarded) {
   for (const SourceFile& file : sourceTree()) {
     if (file.path.ends_with(".hpp")) {

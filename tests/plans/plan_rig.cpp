@@ -55,6 +55,11 @@ void PlanRig::moveCaster() {
   moved.revision = ++lastRevision_;
 }
 
+void PlanRig::moveLight() {
+  light_.centerWorld += 0.01 * glm::length(light_.centerWorld) * glm::normalize(light_.halfU);
+  ++lightRevision_;
+}
+
 techniques::DrawItem PlanRig::itemOf(const Object& object) const {
   const scene::TriangleMesh& mesh = *object.source.mesh;
   return {.object = object.id,
@@ -73,7 +78,7 @@ techniques::DrawItem PlanRig::itemOf(const Object& object) const {
 
 const techniques::LightScene& PlanRig::prepare(int channel) {
   casters_.clear(), receivers_.clear(), shadowlessReceivers_.clear(), casterShapes_.clear();
-  std::uint64_t contentKey = 1, sceneKey = 1;
+  std::uint64_t contentKey = lightRevision_, sceneKey = lightRevision_;
   for (const auto& object : objects_) {
     const techniques::DrawItem item = itemOf(*object);
     sceneKey = combineKeys(sceneKey, item.revision);
@@ -107,6 +112,7 @@ const techniques::LightScene& PlanRig::prepare(int channel) {
       .receiverFarDistance = kReceiversBehindCasters * fit.farthestCaster,
       .casters = casters_,
       .groups = groups_,
+      .silhouettes = silhouettes_,
       .receivers = receivers_,
       .shadowlessReceivers = shadowlessReceivers_,
       .contentKey = contentKey,

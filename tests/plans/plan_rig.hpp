@@ -30,11 +30,14 @@ class PlanRig {
 
   /// Moves the last caster by a tenth of its size.
   void moveCaster();
+  /// Moves the light by a hundredth of its distance.
+  void moveLight();
   /// What planners refer to until the next call.
   const techniques::LightScene& prepare(int channel);
   /// One frame of the light that has this place among the frame's lights.
   Planned plan(techniques::LightPlanner& planner, int channel = 0);
   const device::Capabilities& capabilities() const { return capabilities_; }
+  scene::CasterSilhouettes& silhouettes() { return silhouettes_; }
   techniques::Settings& settings() { return settings_; }
 
  private:
@@ -52,10 +55,11 @@ class PlanRig {
   std::vector<std::unique_ptr<Object>> objects_;
   scene::AreaLight light_;
   techniques::View screen_;
-  std::uint64_t lastRevision_ = 0;
+  std::uint64_t lastRevision_ = 0, lightRevision_ = 1;
   std::vector<planner::CasterShape> casterShapes_;
   std::vector<techniques::DrawItem> casters_, receivers_, shadowlessReceivers_;
   scene::CasterGroups groups_;
+  scene::CasterSilhouettes silhouettes_;
   std::unique_ptr<techniques::LightScene> scene_;
 };
 

@@ -41,62 +41,63 @@ class LightSilhouetteCacheTest : public ::testing::Test {
   scene::HalfEdgeMesh mesh = scene::HalfEdgeMesh::build(sphere(2).mesh());
   std::vector<PlacedCaster> casters;
   LightPlane plane{scene::areaLightAimed({20, 30, 5}, {30, 0, 0}, 2, 2, {0, 0, 1}).value(), 30.0, 1e-4};
+  scene::CasterSilhouettes extracted;
   scene::LightSilhouetteCache cache;
 
-  void expectWork(std::uint32_t extracted, std::uint32_t reused) const {
-    EXPECT_EQ(cache.counters().extracted, extracted);
+  void expectWork(std::uint32_t placed, std::uint32_t reused) const {
+    EXPECT_EQ(cache.counters().placed, placed);
     EXPECT_EQ(cache.counters().reused, reused);
-    EXPECT_EQ(cache.changedObjects().size(), extracted);
+    EXPECT_EQ(cache.changedObjects().size(), placed);
   }
 };
 
-TEST_F(LightSilhouetteCacheTest, ExtractsOnlyWhatChanged) {
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+TEST_F(LightSilhouetteCacheTest, PlacesOnlyWhatChanged) {
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(20, 0);
   const std::uint64_t first = cache.generation();
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(0, 20);
   EXPECT_EQ(cache.generation(), first);
   casters[7].worldFromObject = at(7.3);
   casters[7].revision = 99;
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(1, 19);
   EXPECT_EQ(cache.changedObjects()[0], 107u);
   EXPECT_NE(cache.generation(), first);
 }
 
 TEST_F(LightSilhouetteCacheTest, CastersComeGoAndChangePlaces) {
-  cache.update(casters, plane, 0.5, 0.5, 1e-3);
+  cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3);
   std::swap(casters[2], casters[11]);
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(0, 20);
   const PlacedCaster gone = casters[4];
   casters.erase(casters.begin() + 4);
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(0, 19);
   casters.push_back(gone);
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(1, 19);
   casters.clear();
-  EXPECT_TRUE(cache.update(casters, plane, 0.5, 0.5, 1e-3).casters.empty());
+  EXPECT_TRUE(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3).casters.empty());
 }
 
-TEST_F(LightSilhouetteCacheTest, AnotherLightExtractsAll) {
-  cache.update(casters, plane, 0.5, 0.5, 1e-3);
-  cache.update(casters, plane, -0.5, 0.5, 1e-3);
+TEST_F(LightSilhouetteCacheTest, AnotherLightPlacesAll) {
+  cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3);
+  cache.update(extracted, casters, plane, -0.5, 0.5, 1e-3);
   expectWork(20, 0);
-  cache.update(casters, plane, 0.5, 0.5, 1e-3);
+  cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3);
   plane.centerWorld.x += 0.25;
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(20, 0);
 }
 
 TEST_F(LightSilhouetteCacheTest, UnknownRevisionsAreNeverReusedAndSharedNumbersAreToldApart) {
   casters[3].revision = 0;
   casters[5].object = casters[6].object;
-  cache.update(casters, plane, 0.5, 0.5, 1e-3);
+  cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3);
   expectWork(20, 0);
-  expectSameAsAnew(cache.update(casters, plane, 0.5, 0.5, 1e-3));
+  expectSameAsAnew(cache.update(extracted, casters, plane, 0.5, 0.5, 1e-3));
   expectWork(1, 19);
 }
 

@@ -170,12 +170,13 @@ TEST_F(Layers, StandAlongsideTheEntryTheyCameFrom) {
 TEST_F(Layers, AreKeptByTheCache) {
   const HalfEdgeMesh mesh = HalfEdgeMesh::build(selfHiding()[0].mesh());
   const std::vector<PlacedCaster> casters{{&mesh, glm::dmat4(1.0), 0, 1}, {&mesh, glm::dmat4(1.0), 1, 2}};
+  scene::CasterSilhouettes extracted;
   scene::LightSilhouetteCache cache;
   LightSilhouettes anew;
   for (const LayerSplit split :
        {LayerSplit::layers, LayerSplit::outline, LayerSplit::alongside, LayerSplit::none}) {
-    const auto& cached = cache.update(casters, plane, source.x, source.y, kMinHeight, split);
-    EXPECT_EQ(cache.counters().extracted, 2u);
+    const auto& cached = cache.update(extracted, casters, plane, source.x, source.y, kMinHeight, split);
+    EXPECT_EQ(cache.counters().placed, 2u);
     scene::lightSilhouettes(casters, plane, source.x, source.y, kMinHeight, anew, split);
     EXPECT_EQ(cached.points, anew.points);
     EXPECT_EQ(cached.casters.size(), anew.casters.size());

@@ -78,12 +78,14 @@ class SliceFilterTest : public test::GlTest {
     const View view;
     const scene::AreaLight light;
     scene::CasterGroups groups;
+    scene::CasterSilhouettes silhouettes;
     const LightScene scene{.capabilities = (*context)->capabilities(),
                            .settings = settings,
                            .screen = view,
                            .name = "light 0",
                            .light = light,
-                           .groups = groups};
+                           .groups = groups,
+                           .silhouettes = silhouettes};
     LightPasses passes(std::make_unique<FilterPlanner>(size, source, filter, widestTexels));
     Device device{**context, programs, shared};
     Status status = passes.prepare(scene);

@@ -48,6 +48,7 @@ LightRig::LightRig(gl::Context& context, const scene::SceneDescription& scene, i
                              .receiverFarDistance = 1.3 * farthest,
                              .casters = casters_,
                              .groups = groups_,
+                             .silhouettes = silhouettes_,
                              .contentKey = 1,
                              .sceneKey = 1});
 }

@@ -41,6 +41,7 @@ class LightRig {
   std::vector<glm::dvec3> points_;
   planner::CasterShape shape_;  ///< of all of them
   scene::CasterGroups groups_;
+  scene::CasterSilhouettes silhouettes_;
   gl::Encoder encoder_;
   std::unique_ptr<framegraph::Executor> executor_;
   std::unique_ptr<techniques::LightScene> scene_;

@@ -72,7 +72,8 @@ TEST(CellLoops, SimplifiedLoopsCoverTheSameCells) {
         random, 3 + trial % 20, {2.0f * unit(random) - 1.0f, 2.0f * unit(random) - 1.0f, box.iHigh + gap},
         0.05f + unit(random), rise);
     outlines::CasterLoops simplified;
-    const outlines::Coverage coverage = simplify(whole, light, box, simplified);
+    outlines::SimplifyScratch scratch;
+    const outlines::Coverage coverage = simplify(whole, light, box, scratch, simplified);
     dropped += coverage == outlines::Coverage::none;
     full += coverage == outlines::Coverage::full;
     partial += coverage == outlines::Coverage::partial;

@@ -180,7 +180,9 @@ struct FrameReport {
   std::uint64_t framebufferSwitches = 0, draws = 0, triangles = 0;
   std::uint64_t bytesLoaded = 0, bytesStored = 0, textureBytesUploaded = 0, bufferBytesUploaded = 0;
   std::uint64_t memoryBytes = 0;  ///< of textures, renderbuffers and buffers that the engine holds
-  const char* planText = "";      ///< passes, attachments and bytes as a table
+  /// Casters whose silhouette was found anew, once for each point of a light that the technique sees it from.
+  std::uint64_t silhouettesExtracted = 0;
+  const char* planText = "";  ///< passes, attachments and bytes as a table
   const char* planGraphviz = "";
 };
 

@@ -47,6 +47,7 @@ std::span<const scene::PlacedCaster> placedCasters(const LightScene& scene) {
                        .revision = item.revision});
   }
   scene.groups.update(casters, scene.contentKey);
+  scene.silhouettes.keepOnly(scene.groups.placed());
   return scene.groups.placed();
 }
 

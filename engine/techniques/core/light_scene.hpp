@@ -14,6 +14,7 @@
 #include "planner/light_fit.hpp"
 #include "planner/sub_lights.hpp"
 #include "scene/caster_groups.hpp"
+#include "scene/caster_silhouettes.hpp"
 #include "scene/light.hpp"
 #include "scene/light_silhouettes.hpp"
 #include "techniques/core/draw_item.hpp"
@@ -53,6 +54,8 @@ struct LightScene {
   double receiverFarDistance = 0.0;   ///< largest z in light space of a receiver inside the fit; 0 = none
   std::span<const DrawItem> casters;  ///< of all views
   scene::CasterGroups& groups;        ///< of `casters`, kept between frames: see placedCasters()
+  /// Of placedCasters(), kept between frames: whoever needs outlines takes them from here.
+  scene::CasterSilhouettes& silhouettes;
   std::span<const DrawItem> receivers;
   /// Objects that receive but are not among `casters`, for maps that hold the whole scene.
   std::span<const DrawItem> shadowlessReceivers;

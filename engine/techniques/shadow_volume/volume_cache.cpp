@@ -45,28 +45,27 @@ void CachedVolume::addDraws(PlannedPass& pass, const PlannedDraw& draw, VolumeSu
   }
 }
 
-const CachedVolume& VolumeCache::get(PassPlan& plan, const glm::dvec3& lightWorld,
+const CachedVolume& VolumeCache::get(PassPlan& plan, const LightScene& scene,
                                      const scene::PlacedCaster& caster, VolumeSurface surface, int maxLayers,
                                      bool wideIndices) {
   const scene::HalfEdgeMesh& mesh = *caster.mesh;
+  const glm::dvec3& lightWorld = scene.light.centerWorld;
+  const scene::LightPoint center{.world = lightWorld};
   CachedVolume& volume = volumes_[caster.object];
   volume.used_ = true;
   if (volume.revision_ != caster.revision || volume.lightWorld_ != lightWorld) {
-    const glm::dmat3 linear(caster.worldFromObject);
-    const glm::dvec3 lightObject =
-        glm::inverse(linear) * (lightWorld - glm::dvec3(caster.worldFromObject[3]));
-    scene::extractSilhouette(mesh, lightObject, volume.silhouette_);
-    volume.chunks_ = volumeChunks(mesh, volume.silhouette_, lightObject, maxLayers);
+    volume.chunks_ = volumeChunks(mesh, scene.silhouettes.of(caster, center),
+                                  caster.objectFromWorld(lightWorld), maxLayers);
     for (CachedVolume::Streams& streams : volume.streams_) streams.made = false;
     volume.revision_ = caster.revision;
     volume.lightWorld_ = lightWorld;
   }
   CachedVolume::Streams& streams = volume.streams_[static_cast<std::size_t>(surface)];
   if (!streams.made) {
-    CachedVolume::fill(
-        streams,
-        buildVolumeMesh(mesh, volume.silhouette_, volume.chunks_, caster.worldFromObject, lightWorld, surface,
-                        wideIndices ? std::numeric_limits<std::uint32_t>::max() : kShortIndexVertices));
+    CachedVolume::fill(streams, buildVolumeMesh(mesh, scene.silhouettes.of(caster, center), volume.chunks_,
+                                                caster.worldFromObject, lightWorld, surface,
+                                                wideIndices ? std::numeric_limits<std::uint32_t>::max()
+                                                            : kShortIndexVertices));
     const std::uint64_t id = (std::uint64_t{caster.object} * 2 + static_cast<std::uint64_t>(surface)) * 2;
     streams.vertices.id = id;
     streams.indices.id = id + 1;

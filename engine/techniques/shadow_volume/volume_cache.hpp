@@ -38,7 +38,6 @@ class CachedVolume {
   std::uint64_t revision_ = 0;
   glm::dvec3 lightWorld_{0.0};
   bool used_ = false;
-  scene::Silhouette silhouette_;
   std::vector<VolumeChunk> chunks_;
   Streams streams_[2];
 };
@@ -48,7 +47,7 @@ class VolumeCache {
  public:
   /// Its buffers go to the plan, also those of the other surface if that was made for an earlier frame.
   /// `maxLayers`: of each chunk; the same in every call. The reference stays valid until endFrame().
-  const CachedVolume& get(PassPlan& plan, const glm::dvec3& lightWorld, const scene::PlacedCaster& caster,
+  const CachedVolume& get(PassPlan& plan, const LightScene& scene, const scene::PlacedCaster& caster,
                           VolumeSurface surface, int maxLayers, bool wideIndices);
   /// Drops the volumes that were not asked for since the last call.
   void endFrame();

@@ -226,7 +226,7 @@ LightVolumes lightVolumes(const LightScene& scene, PassPlan& plan, const VolumeV
     draw.depthFail = !missesNearPyramid(view, light, box);
     // The eye looks into the volume of a caster that is not drawn through its cap.
     draw.surface = draw.depthFail || !drawn[caster.object] ? VolumeSurface::capped : VolumeSurface::sides;
-    draw.volume = &cache.get(plan, light, caster, draw.surface, maxLayers, wideIndices);
+    draw.volume = &cache.get(plan, scene, caster, draw.surface, maxLayers, wideIndices);
     draw.mirrored = glm::determinant(glm::dmat3(caster.worldFromObject)) < 0.0;
     draw.clipFromObject = glm::mat4(view.clipFromWorld * caster.worldFromObject);
     draw.scissor = shadowScissor(view, light, box);

@@ -65,12 +65,16 @@ OwnSurfaces listedSurfaces(const WedgeVolumes& volumes) {
   return volumes.takenTogether ? OwnSurfaces::all : OwnSurfaces::hollow;
 }
 
+CastingReceivers castingReceivers(const LightScene& scene, OwnSurfaces which) {
+  return needsOwnReceivers(scene, which) ? CastingReceivers::listed : CastingReceivers::drawn;
+}
+
 class AdditivePlanner final : public LightPlanner {
  public:
   Status plan(const LightScene& scene, PassPlan& plan) override {
-    routes_.planSums(scene, plan, scene.settings.choice("wedges.route"));
-    return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1},
-                           listedSurfaces(routes_.volumes(scene)));
+    const OwnSurfaces listed = listedSurfaces(routes_.volumes(scene));
+    routes_.planSums(scene, plan, scene.settings.choice("wedges.route"), castingReceivers(scene, listed));
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1}, listed);
   }
 
  private:
@@ -82,8 +86,9 @@ class AdditivePlanner final : public LightPlanner {
 class ProbabilisticPlanner final : public LightPlanner {
  public:
   Status plan(const LightScene& scene, PassPlan& plan) override {
-    WedgeRoute route =
-        routes_.choose(scene, plan, scene.settings.choice("wedges-probabilistic.route"), wholeThenBatches);
+    const OwnSurfaces listed = listedSurfaces(routes_.volumes(scene));
+    WedgeRoute route = routes_.choose(scene, plan, scene.settings.choice("wedges-probabilistic.route"),
+                                      wholeThenBatches, castingReceivers(scene, listed));
     const WedgeVolumes& volumes = route.volumes();
     const ResourceId visibility = screenImage(scene, plan, "wedge visibility");
     const GroupTarget whole{
@@ -100,7 +105,7 @@ class ProbabilisticPlanner final : public LightPlanner {
     }
     plan.shading = screenShading(scene, visibility, 0.0f);
     return addOwnReceivers(scene, plan, loops_, lists_, "wedges-probabilistic.tiles",
-                           {&outlines::kWholeLight, 1}, listedSurfaces(volumes));
+                           {&outlines::kWholeLight, 1}, listed);
   }
 
  private:

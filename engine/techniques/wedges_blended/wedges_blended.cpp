@@ -133,7 +133,8 @@ class BlendedPlanner final : public LightPlanner {
   /// Without overlap there is nothing to blend.
   Status addUp(const LightScene& scene, PassPlan& plan) {
     plan.note("blending", "no two casters shadow the same receiver: their shares are added up");
-    routes_.planSums(scene, plan, "auto");
+    // addOwn() gives lists to all that cast.
+    routes_.planSums(scene, plan, "auto", CastingReceivers::listed);
     return addOwn(scene, plan);
   }
 

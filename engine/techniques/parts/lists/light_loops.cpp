@@ -89,8 +89,8 @@ void LightLoops::update(const LightScene& scene, PassPlan& plan,
   for (std::size_t i = 0; i < subLights.size(); ++i) {
     const outlines::SubLight& subLight = subLights[i];
     subLights_.push_back(
-        outlines::loopsOf(silhouettes_[i].update(shown, plane, subLight.center.x, subLight.center.y,
-                                                 minHeight_, scene::LayerSplit::alongside),
+        outlines::loopsOf(silhouettes_[i].update(scene.silhouettes, shown, plane, subLight.center.x,
+                                                 subLight.center.y, minHeight_, scene::LayerSplit::alongside),
                           casters, subLight, space_, seenInside));
   }
 }

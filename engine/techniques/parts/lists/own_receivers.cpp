@@ -6,17 +6,20 @@
 
 namespace halfshadow::techniques {
 
-Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
-                       std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
-                       OwnSurfaces which) {
+bool needsOwnReceivers(const LightScene& scene, OwnSurfaces which) {
   const auto needsNone = [which](const scene::CasterPart& part) {
     return part.convex && which == OwnSurfaces::hollow;
   };
-  const bool some = std::ranges::any_of(scene.receivers, [&](const DrawItem& item) {
+  return std::ranges::any_of(scene.receivers, [&](const DrawItem& item) {
     const std::uint32_t own = placedCasterOf(scene, item);
     return own != kNoCaster && !std::ranges::all_of(placedCasters(scene)[own].mesh->parts(), needsNone);
   });
-  if (!some) return {};
+}
+
+Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
+                       std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
+                       OwnSurfaces which) {
+  if (!needsOwnReceivers(scene, which)) return {};
   const ListRequest request{.subLights = subLights,
                             .receivers = ListedReceivers::casting,
                             .tiles = scene.settings.integer(tilesKey),

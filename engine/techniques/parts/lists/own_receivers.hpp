@@ -17,6 +17,9 @@ enum class OwnSurfaces {
   all      ///< a silhouette is that of one point of the light, and own facets know all others
 };
 
+/// Whether some casting receiver needs lists; then all of them have them.
+bool needsOwnReceivers(const LightScene& scene, OwnSurfaces which);
+
 /// Makes casting receivers of the plan's shading walk lists, for a fragment file that does so with
 /// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them. `tilesKey`: the setting that
 /// holds the number of tiles. `subLights`: those of the fragment file. Errors: outOfMemory (lists exceed the

@@ -110,7 +110,10 @@ void WedgeReceivers::cut(const WedgeVolumes& volumes, std::span<const WedgeGroup
 }
 
 ReceiverDraws WedgeReceivers::update(const LightScene& scene, const WedgeVolumes& volumes,
-                                     std::span<const WedgeGroup> groups) {
+                                     std::span<const WedgeGroup> groups, CastingReceivers casting) {
+  const auto isLeftOut = [casting](const DrawItem& item) {
+    return casting == CastingReceivers::listed && item.casts && hasFewTriangles(item);
+  };
   if (contentKey_ != volumes.contentKey) {
     // Objects that were removed go, too; what the camera does not see now is cut when it does.
     std::erase_if(receivers_, [&](const auto& kept) {
@@ -121,6 +124,7 @@ ReceiverDraws WedgeReceivers::update(const LightScene& scene, const WedgeVolumes
     contentKey_ = volumes.contentKey;
   }
   for (const DrawItem& item : scene.receivers) {
+    if (isLeftOut(item)) continue;
     WedgeReceiver& receiver = receivers_[item.object];
     if (receiver.revision == item.revision) continue;
     cut(volumes, groups, item, receiver);
@@ -133,6 +137,7 @@ ReceiverDraws WedgeReceivers::update(const LightScene& scene, const WedgeVolumes
   draws.groups.resize(groups.size());
   for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
     const DrawItem& item = scene.receivers[i];
+    if (isLeftOut(item)) continue;
     const WedgeReceiver& receiver = receivers_[item.object];
     if (hasFewTriangles(item) && !receiver.cut) draws.allCut = false;
     const auto corners = item.boundsWorld.corners();

@@ -34,7 +34,7 @@ struct WedgeReceiver {
 
 /// One draw over a receiver.
 struct ReceiverDraw {
-  std::size_t item = 0;  ///< in LightFrame::receivers
+  std::size_t item = 0;  ///< in LightScene::receivers
   WedgePart part = WedgePart::beyond;
   const WedgeReceiver* receiver = nullptr;
   WedgeReceiver::Range range;  ///< of receiver->footprints
@@ -49,13 +49,20 @@ struct ReceiverDraws {
   std::size_t wholeDraws = 0, wholeVertices = 0;  ///< over all groups
 };
 
+/// Where receivers that cast have their shadows from.
+enum class CastingReceivers {
+  drawn,  ///< from what is drawn over them, like all others
+  listed  ///< from lists (own_receivers.hpp): what is drawn over them is not read
+};
+
 /// Keeps footprints between frames.
 class WedgeReceivers {
  public:
   /// Cuts receivers that are new or moved, or all when the wedges changed, and lists the frame's draws in an
-  /// order of few program changes. Pointers hold until the next update.
+  /// order of few program changes. Receivers of few triangles that are listed are left out. Pointers hold
+  /// until the next update.
   ReceiverDraws update(const LightScene& scene, const WedgeVolumes& volumes,
-                       std::span<const WedgeGroup> groups);
+                       std::span<const WedgeGroup> groups, CastingReceivers casting);
 
  private:
   void cut(const WedgeVolumes& volumes, std::span<const WedgeGroup> groups, const DrawItem& item,

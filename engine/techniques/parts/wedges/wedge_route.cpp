@@ -98,7 +98,7 @@ void WedgeRoute::drawByReceivers(const LightScene& scene, PassPlan& plan, Planne
 }
 
 WedgeRoute WedgeRoutes::choose(const LightScene& scene, PassPlan& plan, std::string_view setting,
-                               Grouping grouping) {
+                               Grouping grouping, CastingReceivers casting) {
   WedgeRoute route;
   route.volumes_ = &volumes_.updatePieces(scene);
   route.groups_ = grouping(route.volumes_->pieces);
@@ -111,7 +111,7 @@ WedgeRoute WedgeRoutes::choose(const LightScene& scene, PassPlan& plan, std::str
               "alpha cuts holes into receivers: what is seen through them would be drawn over");
   } else if (setting != "screen") {
     const std::size_t mostDraws = snapsCoarsely(scene.capabilities) ? 0 : kMostDraws;
-    ReceiverDraws draws = receivers_.update(scene, *route.volumes_, route.groups_);
+    ReceiverDraws draws = receivers_.update(scene, *route.volumes_, route.groups_, casting);
     const std::string count = std::to_string(draws.wholeDraws) + " draws of receivers with many triangles";
     if (setting == "receivers" || (draws.wholeDraws <= mostDraws && draws.wholeVertices <= kMostVertices)) {
       plan.note(scene.name + " wedge volumes", "receivers carry the projected silhouettes, with " + count);
@@ -133,8 +133,9 @@ WedgeRoute WedgeRoutes::choose(const LightScene& scene, PassPlan& plan, std::str
   return route;
 }
 
-void WedgeRoutes::planSums(const LightScene& scene, PassPlan& plan, std::string_view setting) {
-  WedgeRoute route = choose(scene, plan, setting, allTogether);
+void WedgeRoutes::planSums(const LightScene& scene, PassPlan& plan, std::string_view setting,
+                           CastingReceivers casting) {
+  WedgeRoute route = choose(scene, plan, setting, allTogether, casting);
   const framegraph::ResourceId sums = screenImage(scene, plan, "wedge sums");
   route.addGroup(scene, plan, 0, "wedges", {.color = sums, .steps = kStepsOfAll}, {});
   // Nothing drawn reads as visibility 0.

@@ -59,9 +59,10 @@ class WedgeRoutes {
   /// device snapsCoarsely()), else they meet volumes that end behind them. Where receivers coincide, each of
   /// them would take what their pixels are to get once: then all is drawn on the screen. The frame's notes
   /// tell.
-  WedgeRoute choose(const LightScene& scene, PassPlan& plan, std::string_view setting, Grouping grouping);
+  WedgeRoute choose(const LightScene& scene, PassPlan& plan, std::string_view setting, Grouping grouping,
+                    CastingReceivers casting);
   /// Adds up all casters in one pass: exact where one caster shadows a receiver. Makes the plan's shading.
-  void planSums(const LightScene& scene, PassPlan& plan, std::string_view setting);
+  void planSums(const LightScene& scene, PassPlan& plan, std::string_view setting, CastingReceivers casting);
   /// What choose() groups.
   const WedgeVolumes& volumes(const LightScene& scene) { return volumes_.updatePieces(scene); }
 

@@ -163,8 +163,9 @@ const WedgeVolumes& WedgeVolumeCache::updatePieces(const LightScene& scene) {
   volumes.farthest = farthest;
   volumes.reach = reach;
   // What a caster covers at all counts once, however often it covers it.
-  const scene::LightSilhouettes& single = volumes.silhouettes.update(
-      placedCasters(scene), volumes.plane, 0.0, 0.0, kMinHeight, scene::LayerSplit::outline);
+  const scene::LightSilhouettes& single =
+      volumes.silhouettes.update(scene.silhouettes, placedCasters(scene), volumes.plane, 0.0, 0.0, kMinHeight,
+                                 scene::LayerSplit::outline);
   const scene::LightSilhouettes silhouettes = outlines::takenTogether(single);
   volumes.takenTogether = silhouettes.casters.size() < single.casters.size();
   makeWedgePieces(silhouettes, outlines::wedgeUnits(plane), farthest, volumes.pieces);

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "outlines/near_loops.hpp"
+
+#include <algorithm>
+
+namespace halfshadow::outlines {
+namespace {
+/// Radii of a patch from its middle from which on it is listed whole.
+constexpr double kFarPatch = 1.25;
+
+/// Closed loops from directed edges between points.
+class Chain {
+ public:
+  Chain(std::size_t points, std::vector<std::int32_t>& first) : first_(first) {
+    if (first_.size() < points) first_.resize(points, -1);
+  }
+  void add(std::uint32_t from, std::uint32_t to) {
+    if (first_[from] < 0) starts_.push_back(from);
+    links_.push_back({to, first_[from]});
+    first_[from] = static_cast<std::int32_t>(links_.size()) - 1;
+  }
+  /// Appends all loops of three edges and more, and forgets the edges. As many enter a point as leave it, so
+  /// that a walk ends where it began.
+  void take(const std::vector<glm::vec3>& points, std::vector<std::vector<glm::vec3>>& loops) {
+    for (const std::uint32_t start : starts_) {
+      while (first_[start] >= 0) {
+        std::vector<glm::vec3>& loop = loops.emplace_back();
+        std::uint32_t at = start;
+        do {
+          loop.push_back(points[at]);
+          const Link& taken = links_[static_cast<std::size_t>(first_[at])];
+          first_[at] = taken.next;
+          at = taken.to;
+        } while (at != start);
+        if (loop.size() < 3) loops.pop_back();
+      }
+    }
+    starts_.clear();
+    links_.clear();
+  }
+
+ private:
+  struct Link {
+    std::uint32_t to = 0;
+    std::int32_t next = -1;
+  };
+  std::vector<std::int32_t>& first_;  ///< by point; all -1 between uses
+  std::vector<Link> links_;
+  std::vector<std::uint32_t> starts_;
+};
+
+/// How a facet enters the lists.
+enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned, kOneSided };
+
+Role roleOf(const NearSurface& surface, std::uint32_t f, const SubLight& light, const ReceiverSet& receivers,
+            FacetChoice choice) {
+  const NearSurface::Facet& facet = surface.facets[f];
+  const int side = choice == FacetChoice::asReceiversSee ? sideOfReceivers(surface, f, receivers)
+                   : sees(facet, light)                  ? -1
+                                                         : 1;
+  if (side == 0) return kOneSided;
+  const bool among = !surface.convex && facet.low.z < receivers.box.iHigh;
+  return side < 0 ? (among ? kAmong : kJoined) : (among ? kAmongTurned : kJoinedTurned);
+}
+
+/// A chord stands for a patch's contour where no receiver is near enough to tell them apart.
+bool isFar(const NearSurface::Patch& patch, const ReceiverSet& receivers) {
+  const auto toWorld = [&](const glm::dvec3& ti) {
+    const scene::LightPlane& plane = receivers.space.plane;
+    return plane.toWorld(receivers.space.lightPoint(ti)) - plane.centerWorld;
+  };
+  const TangentBox& box = receivers.box;
+  const glm::dvec3 middle = toWorld(glm::dvec3(box.center()));
+  const double reach = glm::length(toWorld(glm::dvec3(box.tHigh, box.iLow)) - middle);
+  return glm::length(patch.centerWorld - middle) > reach + kFarPatch * patch.radius;
+}
+}  // namespace
+
+void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
+               const ReceiverSet& receivers, FacetChoice choice, NearLoopScratch& scratch,
+               NearLoops& result) {
+  result.joined.clear();
+  result.among.clear();
+  result.oneSided.clear();
+  std::vector<std::uint8_t>& roles = scratch.roles;
+  if (roles.size() < surface.facets.size()) roles.resize(surface.facets.size(), kAbsent);
+  for (const std::uint32_t f : facets) roles[f] = roleOf(surface, f, light, receivers, choice);
+  Chain chain(surface.points.size(), scratch.firstLink);
+  enum class Way { outward, turned };
+  /// The edges of facet f where no facet of the same kind goes on.
+  const auto link = [&](std::uint32_t f, Way way, auto goesOn) {
+    const NearSurface::Facet& facet = surface.facets[f];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t beyond = facet.beyond[k];
+      if (beyond != kNoFacet && roles[beyond] == roles[f] && goesOn(beyond)) continue;
+      std::uint32_t from = facet.vertex[k], to = facet.vertex[(k + 1) % 3];
+      if (way == Way::turned) std::swap(from, to);
+      chain.add(from, to);
+    }
+  };
+  for (const std::uint32_t f : facets) {
+    if (roles[f] == kJoined) link(f, Way::outward, [](std::uint32_t) { return true; });
+    if (roles[f] == kJoinedTurned) link(f, Way::turned, [](std::uint32_t) { return true; });
+  }
+  chain.take(surface.points, result.joined);
+  for (std::size_t k = 0; k < facets.size();) {
+    const std::uint32_t patch = surface.facets[facets[k]].patch;
+    std::size_t end = k;
+    while (end < facets.size() && surface.facets[facets[end]].patch == patch) ++end;
+    const bool whole = isFar(surface.patches[patch], receivers);
+    const auto takePatch = [&](Role role, Way way, std::vector<std::vector<glm::vec3>>& loops) {
+      for (std::size_t m = k; m < end; ++m) {
+        if (roles[facets[m]] != role) continue;
+        link(facets[m], way, [&](std::uint32_t f) { return whole && surface.facets[f].patch == patch; });
+        if (!whole) chain.take(surface.points, loops);
+      }
+      chain.take(surface.points, loops);
+    };
+    takePatch(kAmong, Way::outward, result.among);
+    takePatch(kAmongTurned, Way::turned, result.among);
+    takePatch(kOneSided, Way::outward, result.oneSided);
+    if (!surface.closed) takePatch(kOneSided, Way::turned, result.oneSided);
+    k = end;
+  }
+  for (const std::uint32_t f : facets) roles[f] = kAbsent;
+}
+
+}  // namespace halfshadow::outlines
