@@ -16,6 +16,7 @@
 #include "scenes/gltf_lights.hpp"
 #include "scenes/gltf_materials.hpp"
 #include "scenes/gltf_pose.hpp"
+#include "scenes/gltf_presence.hpp"
 
 namespace halfshadow::scenes {
 namespace {
@@ -203,20 +204,34 @@ class GltfSceneBuilder {
     return {};
   }
 
+  struct WaitingObject {
+    SceneObject object;
+    int material = -1;  ///< of the file; -1: none
+    bool isFlattened = false;
+  };
+
+  /// Objects that share a mesh and its material share what is left of it.
+  const PresentMesh& presentOf(const WaitingObject& waiting, const GltfMaterial& material) {
+    const auto [found, isNew] = present_.try_emplace(std::pair(waiting.object.mesh, waiting.material));
+    if (isNew) found->second = presentMesh(material, waiting.object.mesh);
+    return found->second;
+  }
+
   void addObjects(const std::vector<GltfMaterial>& materials) {
     for (WaitingObject& waiting : waiting_) {
       SceneObject& object = waiting.object;
       GltfMaterial material;
       material.material.doubleSided = false;  // the format's default
       if (waiting.material >= 0) material = materials[waiting.material];
-      const Presence presence = presenceOf(material, *object.mesh);
-      if (presence == Presence::nothing) {
+      const PresentMesh& present = presentOf(waiting, material);
+      if (present.mesh == nullptr) {
         absent_.push_back(object.name);
         continue;
       }
+      object.mesh = present.mesh;
       object.material = material.material;
       if (object.mesh->texcoords.empty()) object.material.baseColorImage = nullptr;
-      if (presence == Presence::whole) object.material.alphaCutoff = 0.0f;
+      if (!present.hasHoles) object.material.alphaCutoff = 0.0f;
       // What is flattened has both its sides in one place.
       object.material.doubleSided = object.material.doubleSided || waiting.isFlattened;
       if (material.blends) blended_.push_back(object.name);
@@ -342,11 +357,7 @@ class GltfSceneBuilder {
   SceneDescription scene_;
   Pose pose_;
   GltfImages images_;
-  struct WaitingObject {
-    SceneObject object;
-    int material = -1;  ///< of the file; -1: none
-    bool isFlattened = false;
-  };
+  std::map<std::pair<std::shared_ptr<const scene::TriangleMesh>, int>, PresentMesh> present_;
   std::vector<WaitingObject> waiting_;
   std::vector<std::string> absent_, blended_;  ///< objects by name
   SkippedPrimitives skipped_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "scenes/gltf_accessors.hpp"
 
@@ -33,16 +34,6 @@ float cutoffOf(const tinygltf::Material& source) {
   if (source.alphaMode != "MASK" || !std::isfinite(source.alphaCutoff)) return 0.0f;
   // Above 1 everything is cut away, also what has no alpha of its own.
   return static_cast<float>(std::max(source.alphaCutoff, 0.0));
-}
-
-AlphaRange alphaRangeOf(const scene::Image& image) {
-  if (image.channels != 4) return {};
-  std::uint8_t low = 255, high = 0;
-  for (std::size_t i = 3; i < image.pixels.size(); i += 4) {
-    low = std::min(low, image.pixels[i]);
-    high = std::max(high, image.pixels[i]);
-  }
-  return {static_cast<float>(low) / 255.0f, static_cast<float>(high) / 255.0f};
 }
 
 /// Base colour, or the diffuse one of KHR_materials_pbrSpecularGlossiness where a material has that; files of
@@ -84,6 +75,19 @@ BaseColor baseColorOf(const tinygltf::Material& source) {
   if (found != texture.extensions.end() && found->second.IsObject()) base.transform = &found->second;
   return base;
 }
+
+/// One an image, whatever materials show it.
+class AlphaPyramids {
+ public:
+  std::shared_ptr<const AlphaPyramid> of(const std::shared_ptr<const scene::Image>& image) {
+    std::shared_ptr<const AlphaPyramid>& made = made_[image];
+    if (!made) made = std::make_shared<const AlphaPyramid>(*image);
+    return made;
+  }
+
+ private:
+  std::map<std::shared_ptr<const scene::Image>, std::shared_ptr<const AlphaPyramid>> made_;
+};
 }  // namespace
 
 TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
@@ -108,20 +112,6 @@ TextureCoordinates textureCoordinatesOf(const tinygltf::Material& material) {
   return result;
 }
 
-Presence presenceOf(const GltfMaterial& source, const scene::TriangleMesh& mesh) {
-  const scene::Material& material = source.material;
-  if (material.alphaCutoff <= 0.0f) return Presence::whole;
-  AlphaRange range{material.baseColor.a, material.baseColor.a};
-  if (!mesh.colors.empty()) {
-    const auto [low, high] =
-        std::ranges::minmax(mesh.colors, {}, [](const glm::vec4& color) { return color.a; });
-    range.times({low.a, high.a});
-  }
-  if (!mesh.texcoords.empty()) range.times(source.imageAlpha);
-  if (range.high < material.alphaCutoff) return Presence::nothing;
-  return range.low >= material.alphaCutoff ? Presence::whole : Presence::withHoles;
-}
-
 std::vector<int> baseColorTextures(const tinygltf::Model& model) {
   std::vector<int> textures;
   for (const tinygltf::Material& source : model.materials) textures.push_back(baseColorOf(source).texture);
@@ -130,6 +120,7 @@ std::vector<int> baseColorTextures(const tinygltf::Model& model) {
 
 std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, GltfImages& images) {
   std::vector<GltfMaterial> materials;
+  AlphaPyramids pyramids;
   for (const tinygltf::Material& source : model.materials) {
     GltfMaterial result{.blends = source.alphaMode == "BLEND"};
     scene::Material& material = result.material;
@@ -145,7 +136,7 @@ std::vector<GltfMaterial> materialsOf(const tinygltf::Model& model, GltfImages& 
       material.baseColorImage = images.ofTexture(base.texture);
       material.sampling = samplingOf(model, base.texture);
       if (material.baseColorImage && material.alphaCutoff > 0.0f)
-        result.imageAlpha = alphaRangeOf(*material.baseColorImage);
+        result.imageAlpha = pyramids.of(material.baseColorImage);
     }
     materials.push_back(std::move(result));
   }
