@@ -285,6 +285,10 @@ TEST_F(FourLights, GiveWhatEachGivesAlone) {
     ASSERT_TRUE(light);
     lights.push_back(*light);
   }
+  // Where depths are complete, filters decide again what the mask knows: those are programs of their own. In
+  // half precision (11 bits), two compilations of one sum may come out on either side of the middle between
+  // two bytes.
+  const int rounding = isForcedOff("highp") ? 1 : 0;
   // A quarter of the pixels: every technique, four lights at once and each alone.
   renderer().desc().target.width = kWidth / 2;
   renderer().desc().target.height = kHeight / 2;
@@ -294,20 +298,14 @@ TEST_F(FourLights, GiveWhatEachGivesAlone) {
     for (int i = 0; i < 4; ++i) {
       renderer().setLights({lights[static_cast<std::size_t>(i)]});
       const Image alone = renderer().render(Configuration{technique});
-      int differing = 0, rounded = 0, shadowed = 0, penumbra = 0;
+      int differing = 0, shadowed = 0;
       for (std::size_t p = 0; p < alone.pixels(); ++p) {
         const int difference = std::abs(alone.byte(p) - together.byte(p, i));
-        differing += difference > 1;
-        rounded += difference == 1;
-        penumbra += alone.byte(p) > 0 && alone.byte(p) < 255;
+        differing += difference > rounding;
         shadowed += alone.byte(p) < 128;
       }
       // None: the same maps, the same arithmetic, another channel.
       EXPECT_EQ(differing, 0) << technique << ", light " << i;
-      // Where depths are complete, filters decide again what the mask knows: those are programs of their own,
-      // and two compilations of one sum differ by its rounding. 1e-5 and more of it, without highp, moves 1
-      // in 400 values of a penumbra across the middle of a step of 1 / 255.
-      EXPECT_LE(rounded, penumbra / 100) << technique << ", light " << i;
       EXPECT_GE(shadowed, 50) << technique << ", light " << i << " must shadow something";
     }
   }
