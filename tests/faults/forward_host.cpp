@@ -26,21 +26,12 @@ GLuint compiled(GLenum kind, const std::string& text) {
 }  // namespace
 
 ForwardHost::ForwardHost(const scene::SceneDescription& scene, int width, int height)
-    : scene_(scene), camera_(scene.camera.value()), width_(width), height_(height) {
+    : scene_(scene),
+      camera_(scene.camera.value()),
+      width_(width),
+      height_(height),
+      framebuffer_(width, height) {
   const gl::Functions& gl = hostGl();
-  gl.genTextures(1, &texture_);
-  gl.bindTexture(GL_TEXTURE_2D, texture_);
-  gl.texImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-  gl.genRenderbuffers(1, &depth_);
-  gl.bindRenderbuffer(GL_RENDERBUFFER, depth_);
-  gl.renderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
-  gl.genFramebuffers(1, &framebuffer_);
-  gl.bindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-  gl.framebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture_, 0);
-  gl.framebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-  EXPECT_EQ(gl.checkFramebufferStatus(GL_FRAMEBUFFER), static_cast<GLenum>(GL_FRAMEBUFFER_COMPLETE));
-  gl.bindFramebuffer(GL_FRAMEBUFFER, 0);
-  gl.bindTexture(GL_TEXTURE_2D, 0);
   for (const scene::SceneObject& object : scene.objects) {
     std::vector<glm::vec3> corners;
     for (const std::uint32_t index : object.mesh->indices) corners.push_back(object.mesh->positions[index]);
@@ -58,9 +49,6 @@ ForwardHost::~ForwardHost() {
   gl.useProgram(0);
   for (const GLuint program : programs_) gl.deleteProgram(program);
   gl.deleteBuffers(static_cast<GLsizei>(buffers_.size()), buffers_.data());
-  gl.deleteFramebuffers(1, &framebuffer_);
-  gl.deleteRenderbuffers(1, &depth_);
-  gl.deleteTextures(1, &texture_);
 }
 
 GLuint ForwardHost::link(const ForwardRecord& texts) {
@@ -93,7 +81,7 @@ std::vector<std::uint8_t> ForwardHost::draw(Engine& engine, GLuint program, std:
   const gl::Functions& gl = hostGl();
   const glm::dmat4 clipFromWorld =
       scene::clipFromView(camera_, static_cast<double>(width_) / height_) * scene::viewFromWorld(camera_);
-  gl.bindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
+  gl.bindFramebuffer(GL_FRAMEBUFFER, framebuffer_.name());
   gl.viewport(0, 0, width_, height_);
   gl.clearColor(1, 1, 1, 1);
   gl.clear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);

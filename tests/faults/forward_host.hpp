@@ -11,6 +11,7 @@
 
 #include "gl/functions.hpp"
 #include "halfshadow/halfshadow.hpp"
+#include "host_framebuffer.hpp"
 #include "scene/scene_description.hpp"
 
 namespace halfshadow::test {
@@ -35,7 +36,7 @@ class ForwardHost {
   const scene::SceneDescription& scene_;
   scene::Camera camera_;
   int width_ = 0, height_ = 0;
-  GLuint texture_ = 0, depth_ = 0, framebuffer_ = 0;
+  HostFramebuffer framebuffer_;
   std::vector<GLuint> buffers_, programs_;
 };
 

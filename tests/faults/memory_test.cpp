@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "engine_fixture.hpp"
+#include "host_framebuffer.hpp"
 
 namespace halfshadow::test {
 namespace {
@@ -15,35 +16,6 @@ int frames(int bounded) {
   const char* asked = std::getenv("HALFSHADOW_TEST_FRAMES");
   return asked ? std::max(std::atoi(asked), 1) : bounded;
 }
-
-/// A host's framebuffer of some size: its own images, which are not the engine's.
-class HostFramebuffer {
- public:
-  HostFramebuffer(int width, int height) {
-    const gl::Functions& gl = hostGl();
-    gl.genTextures(1, &color_);
-    gl.bindTexture(GL_TEXTURE_2D, color_);
-    gl.texImage2D(GL_TEXTURE_2D, 0, GL_RGBA, width, height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
-    gl.genRenderbuffers(1, &depth_);
-    gl.bindRenderbuffer(GL_RENDERBUFFER, depth_);
-    gl.renderbufferStorage(GL_RENDERBUFFER, GL_DEPTH_COMPONENT16, width, height);
-    gl.genFramebuffers(1, &name_);
-    gl.bindFramebuffer(GL_FRAMEBUFFER, name_);
-    gl.framebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_, 0);
-    gl.framebufferRenderbuffer(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_RENDERBUFFER, depth_);
-  }
-  HostFramebuffer(const HostFramebuffer&) = delete;
-  HostFramebuffer& operator=(const HostFramebuffer&) = delete;
-  ~HostFramebuffer() {
-    hostGl().deleteFramebuffers(1, &name_);
-    hostGl().deleteRenderbuffers(1, &depth_);
-    hostGl().deleteTextures(1, &color_);
-  }
-  GLuint name() const { return name_; }
-
- private:
-  GLuint color_ = 0, depth_ = 0, name_ = 0;
-};
 
 class Memory : public EngineTest {
  protected:
