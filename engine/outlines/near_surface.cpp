@@ -11,6 +11,9 @@ namespace {
 /// Clusters whose normals lie within 18 degrees of their mean count as even: a chord across one is its
 /// contour to a twentieth of its size.
 constexpr float kEven = 0.95f;
+/// Height of the farthest point over that of the nearest, from which on a surface is spread: trees count
+/// places in 1/32000 of its reach, of which the far half, as wide as a sixteenth of it, still has 2000.
+constexpr float kSpread = 16.0f;
 /// In place of a point: the vertex lies below the least height.
 constexpr std::uint32_t kBelow = kNoFacet - 1;
 
@@ -44,6 +47,9 @@ class SurfaceMaker {
     addPatches();
     measurePatches();
     linkFacets();
+    const auto [far, near] = std::ranges::minmax_element(surface_.points, {}, &glm::vec3::z);
+    surface_.spread =
+        far != surface_.points.end() && near->z + space_.originI > kSpread * (far->z + space_.originI);
     return std::move(surface_);
   }
 

@@ -59,6 +59,9 @@ struct NearSurface {
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
   bool whole = false;   ///< the caster has no other part
   bool cut = false;     ///< it reaches through the light's plane
+  /// So near to the light, compared with its farthest point, that one unit of (t, i) for all of its points
+  /// would be coarse for most: fragments walk no trees of it.
+  bool spread = false;
 };
 
 /// What a closed part stands for.

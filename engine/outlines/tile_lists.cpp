@@ -146,8 +146,10 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
                                                                           : FacetChoice::asLightSees,
                             .around = around};
     if (near.surface->facets.empty()) return false;
-    const std::size_t most =
-        near.choice == FacetChoice::asReceiversSee ? receiver.mostOwnFacets : receiver.mostOthersFacets;
+    const bool isOwn = near.choice == FacetChoice::asReceiversSee;
+    const std::size_t most = near.surface->spread ? ~std::size_t{0}
+                             : isOwn              ? receiver.mostOwnFacets
+                                                  : receiver.mostOthersFacets;
     const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers, most);
     if (all.empty()) return true;
     if (all.size() > most) {
@@ -273,7 +275,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         const bool sided = !surface->closed && !isOwn && records.size() > own;
         if (sided && firstSide == surface) records[own - 1].firstSide = true;
         if (sided) firstSide = surface;
-        if (!isOwn && records.size() - own > receiver.mostOthersRecords) {
+        if (!isOwn && !surface->spread && records.size() - own > receiver.mostOthersRecords) {
           records.resize(own);
           leadIntoTrees();
         }
