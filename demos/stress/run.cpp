@@ -28,9 +28,10 @@ bool isFallBack(Engine& engine, const SkipRecord& skip) {
   for (std::size_t i = 0; i < engine.techniqueCount(); ++i) {
     if (what.starts_with("light ") && what.ends_with(std::string(" ") + engine.technique(i).id)) return true;
   }
-  // How many maps a light takes is a choice, except where there were too few texels for as many as were
-  // asked.
+  // How many maps a light takes, and of what size, is a choice, except where there were too few texels for as
+  // many as were asked.
   if (what.ends_with(" sub-lights")) return why.starts_with("map-too-small:");
+  if (what.ends_with(" map_size")) return false;
   const bool planned = std::ranges::count(what, ' ') == 1;
   const std::size_t code = why.find_first_not_of("abcdefghijklmnopqrstuvwxyz-");
   return !planned && code != std::string::npos && code > 0 && why[code] == ':';

@@ -12,6 +12,9 @@
 namespace halfshadow {
 namespace {
 constexpr std::uint32_t kNoNumber = ~0u;
+/// Texels a side of maps with casters far off the light's axis, and how many times those asked for: of the
+/// widest window the middle is as fine as that of an ordinary one with as many as were asked for.
+constexpr int kMostMapSize = 4096, kMostGrowth = 4;
 
 /// With equal shadows, if not of equal colour.
 bool castsAlike(const scene::AreaLight& a, const scene::AreaLight& b) {
@@ -81,7 +84,10 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
     castersWorld.include(cache.casterShapes.values()[place].boundsWorld);
   }
   cache.light = planner::lightWithinReach(lights[light], castersWorld);
-  cache.fit = cache.fitter.fit(cache.light, cache.casterShapes.values(), {.mapSize = mapSize});
+  const int mostMapSize =
+      std::min({kMostGrowth * mapSize, kMostMapSize, context->capabilities().limits.textureSize});
+  cache.fit = cache.fitter.fit(cache.light, cache.casterShapes.values(),
+                               {.mapSize = mapSize, .mostMapSize = mostMapSize});
   cache.key = plan.contentKey;
   cache.mapSize = mapSize;
   cache.reachKey = 0;
@@ -109,6 +115,12 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
     frame.graph.noteSkipped(nameOf(index) + " shadows",
                             std::string(planner::skipText(planner::SkipReason::noCasters)));
     used = techniqueNamed("none");
+  }
+  if (!shadowsNothing && cache.fit.growth > 1) {
+    frame.graph.noteSkipped(nameOf(index) + " map_size",
+                            "casters-off-axis: casters lie so far to the sides that the light's map has " +
+                                std::to_string(cache.fit.mapSize) + " texels a side instead of " +
+                                std::to_string(cache.mapSize));
   }
   auto choice = choiceFor(frame, index, *used);
   if (!choice) return choice.error();

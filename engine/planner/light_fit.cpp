@@ -234,11 +234,14 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   fit.castersCrossPlane = !(nearest > 0.0);
   glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
   fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, fit.alignedDistance, low, high);
+  const glm::dvec2 most(options.maxTangent);
+  if (glm::any(glm::greaterThan(low, most)) || glm::any(glm::lessThan(high, -most))) return fit;
+  low = glm::max(low, -most), high = glm::min(high, most);
+  const double widest = std::max(high.x - low.x, high.y - low.y);
+  for (double wide = options.wideWindow; wide < widest && 2 * fit.mapSize <= options.mostMapSize; wide *= 2.0)
+    fit.mapSize *= 2, fit.growth *= 2;
   for (int axis = 0; axis < 2; ++axis) {
-    if (low[axis] > options.maxTangent || high[axis] < -options.maxTangent) return fit;
-    const Interval tangents = {std::max(low[axis], -options.maxTangent),
-                               std::min(high[axis], options.maxTangent)};
-    const Interval snapped = snapTangents(tangents, options.mapSize, options.borderTexels);
+    const Interval snapped = snapTangents({low[axis], high[axis]}, fit.mapSize, options.borderTexels);
     fit.tangentLow[axis] = snapped.low;
     fit.tangentHigh[axis] = snapped.high;
   }

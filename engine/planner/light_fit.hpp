@@ -38,6 +38,7 @@ struct LightFit {
   /// light see it from such different directions that a view from the centre cannot stand for them.
   bool casterNearLight = false;
   int mapSize = 1024;
+  int growth = 1;     ///< times as many texels a side as asked, see LightFitOptions::mostMapSize
   bool empty = true;  ///< no caster in front of the light
 
   /// Texels per unit tangent, along x and y.
@@ -50,8 +51,12 @@ struct LightFit {
 
 struct LightFitOptions {
   int mapSize = 1024;
-  int borderTexels = 2;        ///< kept free of casters, so that clamped taps outside read "lit"
-  double maxTangent = 8.0;     ///< casters farther off-axis are cut: 83 degrees
+  int borderTexels = 2;     ///< kept free of casters, so that clamped taps outside read "lit"
+  double maxTangent = 8.0;  ///< casters farther off-axis are cut: 83 degrees
+  /// The map is doubled, up to so many texels a side, while its window is wider than wideWindow for mapSize
+  /// of them: casters past 60 degrees off-axis would leave few for what is before the light.
+  int mostMapSize = 0;
+  double wideWindow = 5.2;     ///< tangents: 1.5 times those of a cone of 60 degrees to each side
   double minNearShare = 1e-3;  ///< near is at least this share of the casters' largest distance
   double nearShare = 1.0;
   /// Half extent of the centres of sub-lights whose maps share the window, see SubLights; the window then

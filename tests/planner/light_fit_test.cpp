@@ -159,6 +159,31 @@ TEST(LightFit, CasterThroughTheLightPlaneIsCutAtNearAndAtTheLargestTangent) {
   EXPECT_LE(fit.tangentHigh.x - fit.tangentLow.x, (options.maxTangent - 0.4) * 1.0443 * 1.006);
 }
 
+// In the middle of the map texels stay about as fine as those of a cone of 60 degrees, up to so many as
+// asked.
+TEST(LightFit, WideWindowsHaveMoreTexels) {
+  const scene::AreaLight light{.halfU = {1, 0, 0}, .halfV = {0, -1, 0}, .emission = {0, 0, -1}};
+  int grown = 0;
+  for (double side = 0.5; side < 12.0; side *= 1.07) {
+    const Points points = boxPoints({0, 0, -3}, {side * 2.0, 1, 1});
+    const LightFit whole = fitLight(light, points, {.mapSize = 256});
+    const LightFit fit = fitLight(light, points, {.mapSize = 256, .mostMapSize = 1024});
+    ASSERT_FALSE(fit.empty);
+    EXPECT_EQ(whole.mapSize, 256);
+    EXPECT_EQ(whole.growth, 1);
+    EXPECT_EQ(fit.mapSize, 256 * fit.growth);
+    // Twice the tangent of 60 degrees; what it grows by, and half as much again before it grows.
+    const double wide = 2.0 * std::sqrt(3.0), extent = fit.tangentHigh.x - fit.tangentLow.x;
+    EXPECT_LE(extent / fit.growth, 1.5 * wide * 1.06) << side;
+    EXPECT_TRUE(fit.growth == 1 || 2.0 * extent / fit.growth > 1.4 * wide) << side;
+    EXPECT_LE(fit.mapSize, 1024);
+    const LightFit little = fitLight(light, points, {.mapSize = 256, .mostMapSize = 700});
+    EXPECT_LE(little.mapSize, 512);
+    grown = std::max(grown, fit.growth);
+  }
+  EXPECT_EQ(grown, 4);
+}
+
 TEST(LightFit, CasterBeyondTheLargestTangentIsEmpty) {
   const scene::AreaLight light{.halfU = {1, 0, 0}, .halfV = {0, -1, 0}, .emission = {0, 0, -1}};
   EXPECT_TRUE(fitLight(light, boxPoints({100, 0, -5}, {1, 1, 1}), {}).empty);

@@ -193,6 +193,7 @@ class OcclusionPlanner final : public LightPlanner {
       return Error{ErrorCode::invalidArgument, "occlusion-textures.map_size=" + std::to_string(size) +
                                                    " is no power of two; choose 64, 128, 256, 512 or 1024"};
     }
+    choices.slicing.mapSize = std::min(choices.slicing.mapSize * scene.fit().growth, kMostMapSize);
     if (Status s = findSpace(scene, choices.slicing); !s) return s;
     for (const int empty : space_->emptySlices) {
       plan.note(scene.name + " occlusion slice " + std::to_string(empty + 1),

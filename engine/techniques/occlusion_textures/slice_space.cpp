@@ -186,7 +186,7 @@ Result<SliceSpace> makeSliceSpace(const planner::LightFit& fit, std::span<const 
     return Error{ErrorCode::invalidArgument, "occlusion-textures.slices=" + std::to_string(options.slices) +
                                                  " is outside 4-16; choose 4, 8, 12 or 16"};
   }
-  if (options.mapSize < 64 || options.mapSize > 1024) {
+  if (options.mapSize < kLeastMapSize || options.mapSize > kMostMapSize) {
     return Error{ErrorCode::invalidArgument,
                  "occlusion-textures.map_size=" + std::to_string(options.mapSize) + " is outside 64-1024"};
   }

@@ -26,6 +26,8 @@ enum class SliceCenter {
   behind  ///< behind it, where the pyramid through the light's outline just holds the casters
 };
 enum class SliceSuccessors { dropped, kept };
+inline constexpr int kLeastMapSize = 64, kMostMapSize = 1024;
+
 struct SliceOptions {
   int slices = 4;
   int mapSize = 256;

@@ -2,6 +2,7 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/sampled/sampled.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "techniques/parts/maps/light_depth.hpp"
@@ -11,6 +12,9 @@ namespace halfshadow::techniques {
 namespace {
 /// Additions of 1/255 that one 8-bit channel holds exactly, with some to spare.
 constexpr int kSamplesPerChannel = 250;
+
+/// Times as many texels a side as asked, of each of so many maps, where casters lie far off the light's axis.
+constexpr int kMostGrowth = 2;
 
 /// Points of the light, a and b in [-1, 1]: a rank-1 lattice, evenly spread for every count.
 /// Based on: Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (generalised golden
@@ -75,7 +79,9 @@ class Sampled final : public Technique {
     const glm::dvec2 at = samplePoint(index);
     point.centerWorld += at.x * scene.light.halfU + at.y * scene.light.halfV;
     point.halfU = point.halfV = glm::dvec3(0.0);
-    return {.fit = planner::fitLight(point, scene.casterShapes, {.mapSize = scene.fit().mapSize}),
+    const int mapSize = scene.settings.integer("map_size");
+    return {.fit = planner::fitLight(point, scene.casterShapes,
+                                     {.mapSize = std::min(scene.fit().mapSize, kMostGrowth * mapSize)}),
             .casters = scene.casters,
             .name = " sample " + std::to_string(index)};
   }
