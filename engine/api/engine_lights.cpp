@@ -186,7 +186,8 @@ SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& reque
                           .fit = cache.fit,
                           .casters = cache.casterShapes.values(),
                           .receiverFarDistance = request.receiverFarDistance,
-                          .contentKey = request.contentKey},
+                          .contentKey = request.contentKey,
+                          .mostTexels = context->capabilities().limits.textureSize},
                          *choice.technique, *choice.settings, splitReason);
   return {{.capabilities = context->capabilities(),
            .settings = *choice.settings,

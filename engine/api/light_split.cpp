@@ -35,13 +35,14 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
   }
   const planner::SubLightGrid grid = planner::subLightGrid(inputs.light, perSide);
   if (grid.whole()) return nullptr;
-  if (planner::subLightMapSize(grid, mapSize) == 0) {
+  const int side = planner::subLightMapSize(grid, mapSize, inputs.mostTexels);
+  if (side == 0) {
     reason = "map-too-small: maps of " + std::to_string(grid.count()) +
              " sub-lights would have less than 64 texels a side; the light is seen whole";
     return nullptr;
   }
   if (contentKey_ != inputs.contentKey || mapSize_ != mapSize || split_.grid != grid) {
-    split_ = planner::fitSubLights(inputs.light, inputs.casters, grid, mapSize, fitter_);
+    split_ = planner::fitSubLights(inputs.light, inputs.casters, grid, side, fitter_);
     contentKey_ = inputs.contentKey;
     mapSize_ = mapSize;
   }

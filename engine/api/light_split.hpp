@@ -23,6 +23,7 @@ class LightSplit {
     std::span<const planner::CasterShape> casters;
     double receiverFarDistance = 0.0;
     std::uint64_t contentKey = 0;  ///< of light and casters
+    int mostTexels = 0;            ///< a side of a texture
   };
   /// Null: it is seen whole. `reason` then tells why, or why it is split, when the technique splits lights.
   const planner::SubLights* update(const Inputs& inputs, const techniques::Technique& technique,

@@ -32,8 +32,9 @@ inline constexpr int kMostSubLightsPerSide = 4;
 SubLightGrid subLightGrid(const scene::AreaLight& light, int perSide);
 
 /// Side in texels of a sub-light's map when all of the grid share `mapSize` texels a side: as many as there
-/// are, or a few less, so that they can be halved several times; 0 when that leaves too few to be halved.
-int subLightMapSize(const SubLightGrid& grid, int mapSize);
+/// are, or some less or more (1.3 times as many texels at most, and `mostTexels` a side of all together), so
+/// that they can be halved several times; 0 when that leaves too few to be halved.
+int subLightMapSize(const SubLightGrid& grid, int mapSize, int mostTexels = 1 << 20);
 
 /// What a split light is seen through. All sub-lights lie in one plane and their maps cover one window whose
 /// places agree at one distance; hence a point at z that the light's centre sees at tangents t lies, in the
@@ -51,12 +52,13 @@ struct SubLights {
   std::vector<LightFit> fits;  ///< each from its own centre; along halfU first, then along halfV
 };
 
-/// `empty` fits when no caster lies before the light. `fitter`: of this light's splits alone.
+/// `side`: texels of each map a side. `empty` fits when no caster lies before the light. `fitter`: of this
+/// light's splits alone.
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
-                       const SubLightGrid& grid, int mapSize, LightFitter& fitter);
+                       const SubLightGrid& grid, int side, LightFitter& fitter);
 /// The same once.
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
-                       const SubLightGrid& grid, int mapSize);
+                       const SubLightGrid& grid, int side);
 
 /// What a number of sub-lights is decided from.
 struct SubLightNeeds {

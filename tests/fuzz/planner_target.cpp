@@ -192,8 +192,8 @@ void checkFits(const World& world, const planner::FrameInput& input, const plann
             "a map sees nothing");
     const planner::SubLightGrid grid = planner::subLightGrid(source, 3);
     require(grid.alongU >= 1 && grid.alongV >= 1, "a light without parts");
-    if (planner::subLightMapSize(grid, world.mapSize()) > 0)
-      (void)planner::fitSubLights(source, points, grid, world.mapSize());
+    if (const int side = planner::subLightMapSize(grid, world.mapSize()); side > 0)
+      (void)planner::fitSubLights(source, points, grid, side);
   }
 }
 

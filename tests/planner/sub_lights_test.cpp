@@ -42,7 +42,7 @@ TEST(SubLights, PlacesInAllMapsDifferByTheDistanceAlone) {
     const scene::AreaLight light = randomLight(random);
     const auto points = randomPoints(random);
     const SubLightGrid grid{1 + repeat % 4, 1 + repeat / 4 % 4};
-    const SubLights split = fitSubLights(light, points, grid, 1024);
+    const SubLights split = fitSubLights(light, points, grid, subLightMapSize(grid, 1024));
     ASSERT_FALSE(split.shared.empty);
     ASSERT_EQ(split.fits.size(), static_cast<std::size_t>(grid.count()));
     for (int k = 0; k < grid.count(); ++k) {
@@ -70,7 +70,7 @@ TEST(SubLights, EveryMapHoldsAllCastersAndItsBorder) {
   for (int repeat = 0; repeat < 50; ++repeat) {
     const scene::AreaLight light = randomLight(random);
     const auto points = randomPoints(random);
-    const SubLights split = fitSubLights(light, points, {3, 3}, 1024);
+    const SubLights split = fitSubLights(light, points, {3, 3}, subLightMapSize({3, 3}, 1024));
     for (const LightFit& fit : split.fits) {
       for (const glm::dvec3& point : points) {
         const glm::dvec2 texel = texelOf(fit, point);
@@ -93,10 +93,19 @@ TEST(SubLights, MapsShareTheTexelsAndHalveEvenly) {
           EXPECT_EQ(side, mapSize);
           continue;
         }
-        EXPECT_EQ(side == 0, mapSize / tiles < 64) << mapSize << " " << u << "x" << v;
-        if (side == 0) continue;
-        EXPECT_LE(tiles * side, mapSize);
-        EXPECT_GT(side, 0.7 * (mapSize / tiles)) << "a quarter of the texels is the most that rounding costs";
+        // A map that has 64 texels or more with rounding is one.
+        if (mapSize / tiles >= 64) {
+          EXPECT_GT(side, 0) << mapSize << " " << u << "x" << v;
+        }
+        if (side == 0) {
+          EXPECT_LT(mapSize / tiles, 64);
+          continue;
+        }
+        EXPECT_LE(tiles * side * tiles * side, 1.3 * mapSize * mapSize)
+            << "no more memory than one map, about";
+        EXPECT_GT(side, 0.8 * (mapSize / tiles)) << "sides a fifth apart, of which the next may be larger";
+        const int kept = subLightMapSize(grid, mapSize, mapSize);
+        EXPECT_LE(tiles * kept, mapSize) << "what a texture holds";
         EXPECT_EQ(side % 16, 0);
         while (side > 6) {
           EXPECT_EQ(side % 2, 0) << mapSize;

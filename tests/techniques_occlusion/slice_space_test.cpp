@@ -210,7 +210,8 @@ TEST(SliceSpace, SubLightsSeeAStepBesideTheCentre) {
     const planner::LightFit fit = planner::fitLight(light, points, {});
     for (const planner::SubLightGrid grid : {planner::SubLightGrid{2, 2}, planner::SubLightGrid{3, 2}}) {
       for (const bool powersOfTwo : {false, true}) {
-        const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
+        const planner::SubLights split =
+            planner::fitSubLights(light, points, grid, planner::subLightMapSize(grid, 1024));
         const auto space = spaceOf(fit, points, {.grid = grid, .powersOfTwo = powersOfTwo}, &split);
         ASSERT_TRUE(space.ok());
         ASSERT_EQ(space->views.size(), 1u * grid.count());
@@ -245,7 +246,8 @@ TEST(SliceSpace, TilesAreAsWideAsTheirContent) {
   const planner::SubLightGrid grid{2, 2};
   const auto tilesFor = [&](const glm::dvec3& half) {
     const std::vector<glm::dvec3> points = casterPoints(-half, half, 40, 3);
-    const planner::SubLights split = planner::fitSubLights(light, points, grid, 1024);
+    const planner::SubLights split =
+        planner::fitSubLights(light, points, grid, planner::subLightMapSize(grid, 1024));
     return spaceOf(planner::fitLight(light, points, {}), points, {.grid = grid}, &split)->tiles;
   };
   EXPECT_EQ(tilesFor({3, 1, 3}), glm::ivec2(2, 2));
