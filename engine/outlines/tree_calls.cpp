@@ -8,19 +8,19 @@ namespace halfshadow::outlines {
 namespace {
 /// Appends what leads into those trees that are in reach; whether some are.
 bool appendTrees(const std::vector<FacetTree>& trees, std::uint8_t subLights, const TangentBox& receivers,
-                 TileLists& lists, std::vector<ListRecord>& calls) {
-  const std::size_t before = calls.size();
+                 TileLists& lists) {
+  const std::size_t before = lists.records.size();
   const OuterSides outer(kWholeLight, receivers);
   for (const FacetTree& tree : trees) {
     const FacetTree::Node& all = tree.nodes.front();
     if (all.high.z <= receivers.iLow || outer.code(all.low, all.high) != 0) continue;
     const auto number = std::ranges::find(lists.trees, &tree) - lists.trees.begin();
     if (number == std::ssize(lists.trees)) lists.trees.push_back(&tree);
-    calls.push_back(
+    lists.records.push_back(
         {.behindFacet = ListRecord::kTree, .tree = static_cast<std::uint32_t>(number), .treeFor = subLights});
   }
-  if (calls.size() == before) return false;
-  calls.back().end = ListRecord::End::caster;
+  if (lists.records.size() == before) return false;
+  lists.records.back().end = ListRecord::End::caster;
   return true;
 }
 
@@ -36,21 +36,21 @@ void callTrees(const NearSurface& surface, std::uint8_t subLights, std::vector<T
 
 std::size_t insertTrees(const std::vector<TreeCall>& calls, const TangentBox& receivers, std::size_t first,
                         NearSurfaces& surfaces, TileLists& lists) {
-  thread_local std::vector<ListRecord> records;
-  records.clear();
+  std::vector<ListRecord>& records = lists.records;
+  const std::size_t before = records.size();
   std::size_t found = 0;
   for (const TreeCall& call : calls) {
     if (call.subLights == 0) continue;
     const FacetTrees& trees = surfaces.treesOf(*call.surface);
-    const bool some = appendTrees(trees.towards, call.subLights, receivers, lists, records);
+    const bool some = appendTrees(trees.towards, call.subLights, receivers, lists);
     const std::size_t firstSide = records.size() - 1;
-    const bool others = appendTrees(trees.away, call.subLights, receivers, lists, records);
+    const bool others = appendTrees(trees.away, call.subLights, receivers, lists);
     // The sides of a sheet cover the same ground.
     if (some && others) records[firstSide].firstSide = true;
     found += some || others;
   }
-  lists.records.insert(lists.records.begin() + static_cast<std::ptrdiff_t>(first), records.begin(),
-                       records.end());
+  const auto at = [&](std::size_t n) { return records.begin() + static_cast<std::ptrdiff_t>(n); };
+  std::rotate(at(first), at(before), records.end());
   return found;
 }
 
