@@ -19,8 +19,6 @@ HS_Grid hs_leftByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool 
 #ifdef HS_SIDES
   HS_Grid firstSide = hs_grid(0.0);
 #endif
-  HS_GridVertices vertices;
-  hs_startGrid(vertices);
   bool treed = false;
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!listed) break;
@@ -30,7 +28,7 @@ HS_Grid hs_leftByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool 
     if (tags.tree < 0.5) break;
     treed = true;
     at = next;
-    hs_walkTree(address, left, vertices, covered);
+    hs_walkTree(address, left, covered);
     HS_HIGHP float ends = step(0.5, tags.ends);
 #ifdef HS_SIDES
     hs_joinGrids(covered, firstSide, ends, tags.firstSide);
