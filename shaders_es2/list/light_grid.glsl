@@ -37,6 +37,12 @@ void hs_addGridChord(inout HS_Grid cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_H
   cells.d += rows.w;
 }
 
+// Of the other sub-lights nothing.
+HS_Grid hs_ofSubLights(HS_Grid left, HS_HIGHP vec4 subLights) {
+  HS_HIGHP vec4 lower = subLights.xxyy, upper = subLights.zzww;
+  return HS_Grid(left.a * lower, left.b * lower, left.c * upper, left.d * upper);
+}
+
 // left *= 1 - covered, of sub-lights whose bit is 1.
 void hs_foldGrid(inout HS_Grid left, HS_Grid covered, HS_HIGHP vec4 subLights) {
   left.a *= 1.0 - clamp(covered.a, 0.0, 1.0) * subLights.xxyy;
