@@ -84,6 +84,11 @@ void hs_findList() {
 #if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
   hs_facet = n;
 #endif
+  // No light falls on this side of a facet that all of it lies behind.
+  if (!hs_outside && n.z < -abs(n.x) - abs(n.y)) {
+    hs_listed = hs_apart = false;
+    hs_lit = 0.0;
+  }
 #endif
 }
 

@@ -2,22 +2,22 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Trees of the facets of dense surfaces, walked box by box; a record of the list leads into one. Stackless: each box knows
 // what follows it (facet_tree_texels.hpp). For the whole light at once. Defined before: HS_Left, what casters left of the
-// light, HS_Covered, what this one covers, hs_hidesAll(), and hs_treeVertex(), which adds a vertex, with its state
-// HS_TreeVertices. Needs caster_lists.glsl. With highp only.
+// light, HS_Covered, what this one covers, hs_hidesAll(), and hs_addTreeEdge() and hs_addTreeChord(), which add to it.
+// Needs caster_lists.glsl. With highp only.
 #if defined(HS_TREES) && defined(HS_CUTS)
 struct HS_TreeWalk {
-  HS_HIGHP vec2 at;
+  HS_HIGHP float first;   // record of the tree
+  HS_HIGHP float record;  // the next box, or vertex of a facet
+  HS_HIGHP float contour; // the record that tells where a contour is to be walked; less than 0: none
   HS_HIGHP vec3 origin;
-  HS_HIGHP vec2 afterContour;  // where what follows all of the box is
-  bool lightAbove;             // all of it lies before the receiver's own facet
-  bool inBox;                  // the next record is a vertex, else a box
-  bool onContour, ended;
+  bool lightAbove;        // all of it lies before the receiver's own facet
+  bool inBox;             // the next record is a facet's vertex
+  bool ended;
 };
 
-HS_HIGHP vec2 hs_recordsOn(HS_HIGHP vec2 at, HS_HIGHP float count) {
-  HS_HIGHP float column = floor(at.x / (2.0 * u_cellTexel.z)) + count;
-  HS_HIGHP float perRow = floor(0.5 / u_cellTexel.z + 0.5), rows = floor((column + 0.5) / perRow);
-  return vec2((2.0 * (column - rows * perRow) + 0.5) * u_cellTexel.z, at.y + rows * u_cellTexel.w);
+HS_HIGHP vec2 hs_recordAt(HS_HIGHP float record) {
+  HS_HIGHP float row = floor((2.0 * record + 1.0) * u_cellTexel.z);
+  return vec2(2.0 * record * u_cellTexel.z - row + 0.5 * u_cellTexel.z, (row + 0.5) * u_cellTexel.w);
 }
 
 // Whether nothing in the box, relative to the receiver, hides any of the light.
@@ -33,8 +33,9 @@ bool hs_boxMisses(HS_TreeWalk walk, HS_HIGHP vec3 low, HS_HIGHP vec3 high) {
 // Goes from a box into it, or to its contour, or past it.
 void hs_passBox(inout HS_TreeWalk walk) {
   HS_COUNT(2);
-  HS_HIGHP vec4 first = floor(texture2D(u_cellLists, walk.at) * 255.0 + 0.5);
-  HS_HIGHP vec4 second = floor(texture2D(u_cellLists, walk.at + vec2(u_cellTexel.z, 0.0)) * 255.0 + 0.5);
+  HS_HIGHP vec2 at = hs_recordAt(walk.record);
+  HS_HIGHP vec4 first = floor(texture2D(u_cellLists, at) * 255.0 + 0.5);
+  HS_HIGHP vec4 second = floor(texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0)) * 255.0 + 0.5);
   HS_HIGHP vec3 low = (first.xyz - 128.0) * hs_wideStep + walk.origin;
   HS_HIGHP vec3 high = (vec3(first.w, second.xy) - 128.0) * hs_wideStep + walk.origin;
   HS_HIGHP float isLeaf = step(127.5, second.z), kind = second.z - 128.0 * isLeaf;
@@ -42,48 +43,112 @@ void hs_passBox(inout HS_TreeWalk walk) {
   HS_HIGHP float skip = (kind - 64.0 * hasContour) * 256.0 + second.w;
   walk.ended = skip < 0.5;
   bool misses = hs_boxMisses(walk, low, high);
-  walk.onContour = !misses && hasContour > 0.5 && low.z > hs_near;
-  walk.inBox = !walk.ended && !misses && (isLeaf > 0.5 || walk.onContour);
-  walk.afterContour = hs_recordsOn(walk.at, skip);
-  if (misses) {
-    walk.at = walk.afterContour;
-  } else {
-    HS_HIGHP float on = 1.0 + hasContour;
-    if (hasContour > 0.5 && !walk.onContour) {
+  bool onContour = !misses && hasContour > 0.5 && low.z > hs_near;
+  walk.contour = onContour ? walk.record + 1.0 : -1.0;
+  walk.inBox = !walk.ended && !misses && isLeaf > 0.5;
+  walk.record += misses || onContour ? skip : 1.0 + hasContour;
+}
+
+// A vertex as (x w, y w, w) on the light's plane. `tag`: 1 where the box or contour ends, and 32 where a loop starts.
+HS_HIGHP vec3 hs_treeVertex(HS_HIGHP float record, HS_HIGHP vec3 origin, out HS_HIGHP float tag) {
+  HS_COUNT(2);
+  HS_HIGHP vec2 at = hs_recordAt(record);
+  HS_HIGHP vec4 first = texture2D(u_cellLists, at);
+  HS_HIGHP vec4 second = texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0));
+  HS_HIGHP vec3 high = floor(vec3(first.xz, second.x) * 255.0 + 0.5);
+  HS_HIGHP vec3 value = high - 128.0 + vec3(first.yw, second.y) * (255.0 / 256.0);
+  tag = floor(second.z * 255.0 + 0.5);
+  return value * hs_wideStep + origin;
+}
+
+// Reads the next facet of a box. Whether it hides some of the light from the receiver: it is before it, not all beyond one
+// side of the light, seen from its inner side, and not the receiver's own.
+bool hs_nextFacet(inout HS_TreeWalk walk, out HS_HIGHP vec3 a, out HS_HIGHP vec3 b, out HS_HIGHP vec3 c) {
+  HS_HIGHP float tag;
+  a = hs_treeVertex(walk.record, walk.origin, tag);
+  b = hs_treeVertex(walk.record + 1.0, walk.origin, tag);
+  c = hs_treeVertex(walk.record + 2.0, walk.origin, tag);
+  walk.record += 3.0;
+  walk.inBox = tag < 0.5;
+  HS_HIGHP vec4 beyond = min(min(vec4(a.xy, -a.xy) - a.z, vec4(b.xy, -b.xy) - b.z), vec4(c.xy, -c.xy) - c.z);
+  HS_HIGHP float highest = max(max(a.z, b.z), c.z);
+  HS_HIGHP vec3 off = abs(vec3(dot(hs_facet, a), dot(hs_facet, b), dot(hs_facet, c)));
+  return highest > hs_near && max(max(beyond.x, beyond.y), max(beyond.z, beyond.w)) <= 0.0 &&
+         dot(a, cross(b - a, c - a)) > 0.0 && max(max(off.x, off.y), off.z) >= hs_facetRounding;
+}
+
+// Adds the contour that was reached, if one was. Receivers lie behind all of it.
+void hs_walkContour(inout HS_TreeWalk walk, inout HS_Covered covered) {
+  HS_HIGHP float record = 0.0;
+  HS_HIGHP vec2 previous = vec2(0.0);
+  for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
+    if (walk.contour < 0.0) break;
+    HS_HIGHP float tag;
+    if (k == 0) {
       HS_COUNT(1);
-      HS_HIGHP vec2 size = floor(texture2D(u_cellLists, hs_recordAfter(walk.at)).rg * 255.0 + 0.5);
-      on += 256.0 * size.x + size.y;
+      HS_HIGHP vec2 number = floor(texture2D(u_cellLists, hs_recordAt(walk.contour)).rg * 255.0 + 0.5);
+      record = walk.first + 256.0 * number.x + number.y;
     }
-    walk.at = hs_recordsOn(walk.at, on);
+    HS_HIGHP vec2 point = hs_onLight(hs_treeVertex(record, walk.origin, tag));
+    HS_HIGHP float starts = step(31.5, tag);
+    hs_addTreeEdge(covered, mix(previous, point, starts), point);
+    previous = point;
+    record += 1.0;
+    if (tag - 32.0 * starts > 0.5) walk.contour = -1.0;
   }
 }
 
-// `address`: of hs_nextVertex() where tags.tree is 1. In phases, boxes until all fragments that are drawn together have one
-// to enter, then what it holds: some devices take both sides of a branch.
-void hs_walkTree(HS_HIGHP vec3 address, HS_Left left, inout HS_TreeVertices vertices, inout HS_Covered covered) {
+// `address`: of hs_nextVertex() where tags.tree is 1. In phases, boxes and facets until all fragments that are drawn together
+// have one that hides, then its edges: some devices take both sides of a branch, but leave a loop that nobody is in.
+void hs_walkTree(HS_HIGHP vec3 address, HS_Left left, inout HS_Covered covered) {
   HS_HIGHP vec3 stepOfList = hs_step;
-  HS_TreeWalk walk;
-  walk.at = hs_vertexAt(address.x, address.y + 256.0 * address.z);
-  HS_HIGHP vec3 center = hs_beginList(walk.at);
+  HS_HIGHP vec2 at = hs_vertexAt(address.x, address.y + 256.0 * address.z);
+  HS_HIGHP vec3 center = hs_beginList(at);
   hs_roundFacet();
+  HS_TreeWalk walk;
   walk.origin = hs_originFrom(center, hs_receiver, hs_away);
   walk.lightAbove = hs_facet.z > abs(hs_facet.x) + abs(hs_facet.y);
-  walk.afterContour = walk.at;
-  walk.inBox = walk.onContour = walk.ended = false;
+  walk.first = address.x + floor(0.5 / u_cellTexel.z + 0.5) * (address.y + 256.0 * address.z);
+  walk.record = walk.first + 1.0;
+  walk.contour = -1.0;
+  walk.inBox = walk.ended = false;
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (walk.ended || hs_hidesAll(left, covered)) break;
-    for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
-      if (walk.inBox || walk.ended) break;
-      hs_passBox(walk);
+    HS_HIGHP float edges = 0.0;
+    HS_HIGHP vec3 a = vec3(0.0), b = vec3(0.0), c = vec3(0.0);
+    for (HS_HIGHP int j = 0; j < HS_LONGEST_LIST; ++j) {
+      if (edges > 0.5 || walk.contour > 0.0 || walk.ended) break;
+      for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
+        if (walk.inBox || walk.contour > 0.0 || walk.ended) break;
+        hs_passBox(walk);
+      }
+      for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
+        if (!walk.inBox || edges > 0.5) break;
+        edges = hs_nextFacet(walk, a, b, c) ? 3.0 : 0.0;
+      }
     }
+    // Of a facet that reaches through the receiver's height the near part counts, which a chord far off closes.
+    HS_HIGHP vec2 gone = vec2(0.0), met = vec2(0.0);
+    HS_HIGHP float cut = 0.0;
     for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
-      if (!walk.inBox) break;
-      HS_Tags tags;
-      HS_HIGHP vec3 projected = hs_nextVertex(walk.at, walk.origin, tags);
-      hs_treeVertex(vertices, covered, projected, tags);
-      walk.inBox = tags.ends < 0.5;
+      if (edges < 0.5) break;
+      edges -= 1.0;
+      HS_HIGHP vec3 cutFrom, cutTo;
+      bool seen = hs_cutEdge(a, b, 0.0, cutFrom, cutTo);
+      HS_HIGHP vec2 from = hs_onLight(cutFrom), to = hs_onLight(cutTo);
+      if (seen && a.z <= hs_near) met = from;
+      if (seen && b.z <= hs_near) {
+        gone = to;
+        cut = 1.0;
+      }
+      hs_addTreeEdge(covered, seen ? from : to, to);
+      HS_HIGHP vec3 next = c;
+      c = a;
+      a = b;
+      b = next;
     }
-    if (walk.onContour) walk.at = walk.afterContour;
+    hs_addTreeChord(covered, gone, met, cut);
+    hs_walkContour(walk, covered);
   }
   hs_step = stepOfList;
   hs_wideStep = 256.0 * stepOfList;

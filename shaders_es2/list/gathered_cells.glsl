@@ -19,8 +19,6 @@ HS_Grid hs_leftByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool 
 #ifdef HS_SIDES
   HS_Grid firstSide = hs_grid(0.0);
 #endif
-  HS_GridVertices vertices;
-  hs_startGrid(vertices);
   bool treed = false;
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (!listed) break;
@@ -30,16 +28,17 @@ HS_Grid hs_leftByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool 
     if (tags.tree < 0.5) break;
     treed = true;
     at = next;
-    hs_walkTree(address, left, vertices, covered);
+#ifdef HS_WHOLE_LIGHT
+    HS_HIGHP vec4 subLights = vec4(1.0);
+#else
+    HS_HIGHP vec4 subLights = hs_bits(tags.subLights);
+#endif
+    hs_walkTree(address, hs_ofSubLights(left, subLights), covered);
     HS_HIGHP float ends = step(0.5, tags.ends);
 #ifdef HS_SIDES
     hs_joinGrids(covered, firstSide, ends, tags.firstSide);
 #endif
-#ifdef HS_WHOLE_LIGHT
-    hs_foldGrid(left, covered, vec4(ends));
-#else
-    hs_foldGrid(left, covered, ends * hs_bits(tags.subLights));
-#endif
+    hs_foldGrid(left, covered, ends * subLights);
     if (ends > 0.5) covered = hs_grid(0.0);
     listed = tags.ends < 2.5;
   }
@@ -89,6 +88,8 @@ HS_HIGHP float hs_gatheredLight() {
 #endif
 #ifdef HS_TREES
   HS_Grid left = hs_leftByTrees(at, origin, cut);
+  // Nothing is left for the list's other casters to hide.
+  cut = cut && !hs_hidesAll(left, hs_grid(0.0));
 #endif
   HS_CutWalk cutWalk;
   hs_startCutWalk(cutWalk);

@@ -37,6 +37,12 @@ void hs_addGridChord(inout HS_Grid cells, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_H
   cells.d += rows.w;
 }
 
+// Of the other sub-lights nothing.
+HS_Grid hs_ofSubLights(HS_Grid left, HS_HIGHP vec4 subLights) {
+  HS_HIGHP vec4 lower = subLights.xxyy, upper = subLights.zzww;
+  return HS_Grid(left.a * lower, left.b * lower, left.c * upper, left.d * upper);
+}
+
 // left *= 1 - covered, of sub-lights whose bit is 1.
 void hs_foldGrid(inout HS_Grid left, HS_Grid covered, HS_HIGHP vec4 subLights) {
   left.a *= 1.0 - clamp(covered.a, 0.0, 1.0) * subLights.xxyy;
@@ -72,49 +78,6 @@ HS_HIGHP vec4 hs_cellsOfSide(HS_Grid grid, HS_HIGHP vec2 side) {
 #endif
 }
 
-// As HS_CutWalk.
-struct HS_GridVertices {
-  HS_HIGHP vec3 previous;
-  HS_HIGHP vec2 reached, firstReached;
-  HS_HIGHP float begun, offFacet;
-  HS_Grid oneSided;
-};
-void hs_startGrid(out HS_GridVertices walk) {
-  walk.previous = vec3(0.0);
-  walk.reached = walk.firstReached = vec2(0.0);
-  walk.begun = walk.offFacet = 0.0;
-  walk.oneSided = hs_grid(0.0);
-}
-void hs_addGridRow(inout HS_HIGHP vec4 covered, inout HS_HIGHP vec4 loop, HS_HIGHP vec4 part, HS_Tags tags,
-                   HS_HIGHP float counts) {
-  loop += part * tags.oneSided;
-  covered += part * (1.0 - tags.oneSided) + max(loop, 0.0) * (tags.closes * counts);
-  loop *= 1.0 - tags.closes;
-}
-void hs_gridVertex(inout HS_GridVertices walk, inout HS_Grid covered, HS_HIGHP vec3 projected, HS_Tags tags) {
-  walk.begun *= 1.0 - tags.starts;
-  HS_HIGHP vec3 cutFrom, cutTo;
-  bool seen = hs_cutEdge(walk.previous, projected, tags.starts, cutFrom, cutTo);
-  HS_HIGHP vec2 from = hs_onLight(cutFrom), to = hs_onLight(cutTo);
-  if (seen && walk.begun < 0.5) {
-    walk.firstReached = from;
-    walk.reached = from;
-    walk.begun = 1.0;
-  }
-  HS_Grid part = hs_grid(0.0);
-  hs_addGridChord(part, walk.reached, from, seen ? 1.0 : 0.0);
-  hs_addGridEdge(part, seen ? from : to, to);
-  walk.reached = seen ? to : walk.reached;
-  hs_addGridChord(part, walk.reached, walk.firstReached, walk.begun * tags.closes);
-  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), abs(dot(hs_facet, projected)) / tags.coarse);
-  HS_HIGHP float counts = hs_facetRounding > 0.0 ? step(hs_facetRounding, walk.offFacet) : 1.0;
-  hs_addGridRow(covered.a, walk.oneSided.a, part.a, tags, counts);
-  hs_addGridRow(covered.b, walk.oneSided.b, part.b, tags, counts);
-  hs_addGridRow(covered.c, walk.oneSided.c, part.c, tags, counts);
-  hs_addGridRow(covered.d, walk.oneSided.d, part.d, tags, counts);
-  walk.previous = projected;
-}
-
 // Whether no cell has more to lose than a picture shows.
 bool hs_hidesAll(HS_Grid left, HS_Grid covered) {
   HS_HIGHP vec4 most = max(max(left.a * (1.0 - covered.a), left.b * (1.0 - covered.b)),
@@ -123,6 +86,6 @@ bool hs_hidesAll(HS_Grid left, HS_Grid covered) {
 }
 #define HS_Left HS_Grid
 #define HS_Covered HS_Grid
-#define HS_TreeVertices HS_GridVertices
-#define hs_treeVertex hs_gridVertex
+#define hs_addTreeEdge hs_addGridEdge
+#define hs_addTreeChord hs_addGridChord
 #endif

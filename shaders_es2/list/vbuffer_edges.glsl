@@ -107,8 +107,7 @@ void hs_addSums(inout HS_Sums sums, HS_Sums others) {
 // Whether what casters before hid, or this one covers, leaves nothing.
 #define HS_Left HS_Occlusion
 #define HS_Covered HS_Sums
-#define HS_TreeVertices HS_CutWalk
-#define hs_treeVertex hs_cutWalk
+#define hs_addTreeEdge hs_addEdge
 bool hs_hidesAll(HS_Occlusion before, HS_Sums sums) {
   return all(greaterThanEqual(max(before.share, sums.share), HS_Quads(1.0)));
 }
@@ -212,6 +211,11 @@ void hs_addFarChord(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b) {
   sums.whole += 0.25 * (2.0 * sides.x - 1.0) * (clamp(b.y, -1.0, 1.0) - clamp(a.y, -1.0, 1.0));
 #endif
 }
+#ifdef HS_TREES
+void hs_addTreeChord(inout HS_Sums sums, HS_HIGHP vec2 a, HS_HIGHP vec2 b, HS_HIGHP float weight) {
+  hs_addFarChord(sums, a, mix(a, b, weight));
+}
+#endif
 #endif
 
 HS_HIGHP float hs_edgeShare(HS_HIGHP vec2 a, HS_HIGHP vec2 b) {

@@ -99,7 +99,7 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
 #ifdef HS_TREES
       if (tags.tree > 0.5) {
-        hs_walkTree(projected, hidden, walk, sums);
+        hs_walkTree(projected, hidden, sums);
       } else {
         hs_cutWalk(walk, sums, projected, tags);
       }

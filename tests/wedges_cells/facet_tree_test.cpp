@@ -153,7 +153,7 @@ TEST(FacetTrees, WhatLeadsOverATreeFitsItsRecord) {
     for (const auto* side : {&trees.towards, &trees.away}) {
       for (const FacetTree& tree : *side) {
         check(tree);
-        // Less the centre's record and the end's.
+        // What leads to a contour has 16 bits, what leads over a box 14.
         EXPECT_LT(techniques::recordsOf(tree) - 2, 16384u);
       }
     }
@@ -215,20 +215,35 @@ class Records {
   std::vector<std::uint8_t> bytes_;
 };
 
-/// The record after the loops of a node, the first of which stands in record `at`.
-std::size_t checkLoops(const Records& records, std::size_t at, const FacetTree& tree,
-                       const FacetTree::Node& node) {
+void expectVertex(const Records& records, std::size_t at, const glm::vec3& point) {
+  const glm::vec3 away = glm::abs(records.vertex(at) - point);
+  // Half a step, and what is lost where single precision counts from the centre.
+  EXPECT_TRUE(glm::all(glm::lessThanEqual(away, 0.5f * records.step + 2e-7f * glm::abs(records.center))));
+}
+
+/// The record after the facets of a leaf, the first of which stands in record `at`.
+std::size_t checkFacets(const Records& records, std::size_t at, const FacetTree& tree,
+                        const FacetTree::Node& node) {
+  for (std::uint32_t l = node.firstLoop; l < node.firstLoop + node.loopCount; ++l) {
+    EXPECT_EQ(tree.loops[l].count, 3u);
+    for (std::uint32_t k = 0; k < 3; ++k, ++at) {
+      expectVertex(records, at, tree.points[tree.loops[l].first + k]);
+      const bool ends = k == 2 && l + 1 == node.firstLoop + node.loopCount;
+      EXPECT_EQ(records.at(at)[6], ends ? 1 : 0);
+    }
+  }
+  return at;
+}
+
+/// The same of a contour's loops.
+std::size_t checkContour(const Records& records, std::size_t at, const FacetTree& tree,
+                         const FacetTree::Node& node) {
   for (std::uint32_t l = node.firstLoop; l < node.firstLoop + node.loopCount; ++l) {
     const FacetTree::Loop& loop = tree.loops[l];
     for (std::uint32_t k = 0; k <= loop.count; ++k, ++at) {
-      const glm::vec3 away = glm::abs(records.vertex(at) - tree.points[loop.first + k % loop.count]);
-      // Half a step, and what is lost where single precision counts from the centre.
-      EXPECT_TRUE(glm::all(glm::lessThanEqual(away, 0.5f * records.step + 2e-7f * glm::abs(records.center))));
-      const int tags = records.at(at)[6];
-      EXPECT_EQ((tags & 32) != 0, k == 0) << "starts";
-      EXPECT_EQ((tags & 16) != 0, k == loop.count) << "closes";
-      EXPECT_EQ((tags & 8) != 0, node.isLeaf) << "counts where positive";
-      EXPECT_EQ((tags & 3) == 1, k == loop.count && l + 1 == node.firstLoop + node.loopCount) << "ends";
+      expectVertex(records, at, tree.points[loop.first + k % loop.count]);
+      const bool ends = k == loop.count && l + 1 == node.firstLoop + node.loopCount;
+      EXPECT_EQ(records.at(at)[6], k == 0 ? 32 : ends ? 1 : 0);
     }
   }
   return at;
@@ -246,6 +261,7 @@ TEST(FacetTrees, RecordsSayWhatTreesHold) {
       EXPECT_TRUE(glm::all(glm::lessThanEqual(
           records.step, glm::max((root.high - root.low) / 16000.0f, glm::abs(records.center) / 4e6f))));
       std::vector<std::size_t> first, end;  // records of each node, and after all that is in it
+      std::vector<std::pair<const FacetTree::Node*, std::size_t>> contours;
       std::size_t at = 1;
       for (const FacetTree::Node& node : tree.nodes) {
         first.push_back(at);
@@ -258,17 +274,18 @@ TEST(FacetTrees, RecordsSayWhatTreesHold) {
         EXPECT_EQ((codes & 16384) != 0, contour);
         end.push_back(at + (codes & 16383));
         ++at;
-        const std::size_t length = contour ? static_cast<std::size_t>(records.number(at++, 0)) : 0;
-        const std::size_t loops = at;
-        at = checkLoops(records, at, tree, node);
-        if (contour) {
-          EXPECT_EQ(at, loops + length);
-        }
+        if (node.isLeaf) at = checkFacets(records, at, tree, node);
+        if (contour) contours.push_back({&node, static_cast<std::size_t>(records.number(at++, 0))});
       }
       first.push_back(at);
       for (std::size_t n = 0; n < tree.nodes.size(); ++n) EXPECT_EQ(end[n], first[tree.nodes[n].end]);
-      ASSERT_EQ(at + 1, records.count());
       for (std::size_t k = 0; k < techniques::kRecordBytes; ++k) EXPECT_EQ(records.at(at)[k], 0);
+      ++at;
+      for (const auto& [node, place] : contours) {
+        ASSERT_EQ(place, at) << "contours follow each other";
+        at = checkContour(records, at, tree, *node);
+      }
+      EXPECT_EQ(at, records.count());
     }
   }
 }

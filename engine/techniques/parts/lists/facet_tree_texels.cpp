@@ -13,28 +13,29 @@ namespace {
 /// Codes of vertices from the centre: boxes are rounded outward by a step and 256.
 constexpr float kReach = 32000.0f;
 constexpr std::size_t kLeaf = 32768, kContour = 16384;
-/// Tags of list_vertices.glsl.
-constexpr int kStarts = 32, kCloses = 16, kOneSided = 8, kEndsNode = 1;
+/// Tags of facet_tree.glsl.
+constexpr int kStarts = 32, kEnds = 1;
 
 void putNumber(std::size_t number, std::uint8_t* bytes) {
   bytes[0] = static_cast<std::uint8_t>(number >> 8);
   bytes[1] = static_cast<std::uint8_t>(number & 255);
 }
 
-/// Of a node's loops.
-std::size_t loopRecords(const outlines::FacetTree& tree, const outlines::FacetTree::Node& node) {
+bool hasContour(const outlines::FacetTree::Node& node) {
+  return !node.isLeaf && node.loopCount > 0;
+}
+
+/// Of a contour's loops, the first vertex of each once more.
+std::size_t contourRecords(const outlines::FacetTree& tree, const outlines::FacetTree::Node& node) {
   std::size_t records = 0;
   for (std::uint32_t l = node.firstLoop; l < node.firstLoop + node.loopCount; ++l)
     records += tree.loops[l].count + 1;
   return records;
 }
 
-bool hasContour(const outlines::FacetTree::Node& node) {
-  return !node.isLeaf && node.loopCount > 0;
-}
-
-std::size_t nodeRecords(const outlines::FacetTree& tree, const outlines::FacetTree::Node& node) {
-  return 1 + (hasContour(node) ? 1 : 0) + loopRecords(tree, node);
+/// Of a box and its facets, or of a box and what leads to its contour.
+std::size_t nodeRecords(const outlines::FacetTree::Node& node) {
+  return 1 + (node.isLeaf ? 3 * node.loopCount : hasContour(node) ? 1 : 0);
 }
 
 std::uint8_t boxCode(float steps) {
@@ -52,15 +53,20 @@ class TreeEncoder {
     encodePlacement(placement_, take());
     std::vector<std::size_t> before(tree_.nodes.size() + 1, 0);
     for (std::size_t n = 0; n < tree_.nodes.size(); ++n)
-      before[n + 1] = before[n] + nodeRecords(tree_, tree_.nodes[n]);
+      before[n + 1] = before[n] + nodeRecords(tree_.nodes[n]);
+    std::size_t contour = 2 + before.back();
     for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
       const outlines::FacetTree::Node& node = tree_.nodes[n];
       putBox(node, before[node.end] - before[n]);
-      if (hasContour(node)) putNumber(loopRecords(tree_, node), take());
-      for (std::uint32_t l = node.firstLoop; l < node.firstLoop + node.loopCount; ++l)
-        putLoop(tree_.loops[l], node.isLeaf, l + 1 == node.firstLoop + node.loopCount);
+      if (node.isLeaf) putFacets(node);
+      if (!hasContour(node)) continue;
+      putNumber(contour, take());
+      contour += contourRecords(tree_, node);
     }
     take();
+    for (const outlines::FacetTree::Node& node : tree_.nodes) {
+      if (hasContour(node)) putContour(node);
+    }
   }
 
  private:
@@ -81,16 +87,28 @@ class TreeEncoder {
     putNumber(skip + (node.isLeaf ? kLeaf : hasContour(node) ? kContour : 0), record + 6);
   }
 
-  void putLoop(const outlines::FacetTree::Loop& loop, bool isFacet, bool isLast) {
-    for (std::uint32_t corner = 0; corner <= loop.count; ++corner) {
-      const bool closes = corner == loop.count;
-      std::uint8_t* const record = take();
-      const glm::vec3 point = tree_.points[loop.first + corner % loop.count];
-      const glm::vec3 steps = (point - placement_.center) / placement_.step;
-      for (int k = 0; k < 3; ++k) putCode(steps[k], record + 2 * k);
-      record[6] = static_cast<std::uint8_t>((isFacet ? kOneSided : 0) | (corner == 0 ? kStarts : 0) |
-                                            (closes ? kCloses : 0) | (closes && isLast ? kEndsNode : 0));
-      record[7] = 1;
+  void putVertex(const glm::vec3& point, int tag) {
+    std::uint8_t* const record = take();
+    const glm::vec3 steps = (point - placement_.center) / placement_.step;
+    for (int k = 0; k < 3; ++k) putCode(steps[k], record + 2 * k);
+    record[6] = static_cast<std::uint8_t>(tag);
+  }
+
+  void putFacets(const outlines::FacetTree::Node& node) {
+    for (std::uint32_t l = 0; l < node.loopCount; ++l) {
+      for (std::uint32_t corner = 0; corner < 3; ++corner)
+        putVertex(tree_.points[tree_.loops[node.firstLoop + l].first + corner],
+                  corner == 2 && l + 1 == node.loopCount ? kEnds : 0);
+    }
+  }
+
+  void putContour(const outlines::FacetTree::Node& node) {
+    for (std::uint32_t l = 0; l < node.loopCount; ++l) {
+      const outlines::FacetTree::Loop& loop = tree_.loops[node.firstLoop + l];
+      for (std::uint32_t corner = 0; corner <= loop.count; ++corner) {
+        const bool ends = corner == loop.count && l + 1 == node.loopCount;
+        putVertex(tree_.points[loop.first + corner % loop.count], corner == 0 ? kStarts : ends ? kEnds : 0);
+      }
     }
   }
 
@@ -102,7 +120,8 @@ class TreeEncoder {
 
 std::size_t recordsOf(const outlines::FacetTree& tree) {
   std::size_t records = 2;
-  for (const outlines::FacetTree::Node& node : tree.nodes) records += nodeRecords(tree, node);
+  for (const outlines::FacetTree::Node& node : tree.nodes)
+    records += nodeRecords(node) + (hasContour(node) ? contourRecords(tree, node) : 0);
   return records;
 }
 

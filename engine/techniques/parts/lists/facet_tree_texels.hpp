@@ -10,12 +10,13 @@
 
 namespace halfshadow::techniques {
 
-/// A tree is a record of its centre and steps, then node by node, depth first, a record of its box and those
-/// of its loops, each its vertices and the first once more; then a record that leads nowhere. A box: the low
-/// and the high corner in 256 steps each, a byte a coordinate, then in two bytes by how many records what
-/// follows all of the node lies after it, and 32768 of a leaf, 16384 of another with a contour. Before a
-/// contour there is a record of its length, in two bytes. Vertices are as in lists, with a scale of 1; the
-/// last of a node has the tag that ends a caster.
+/// A tree is a record of its centre and steps; node by node, depth first, a record of its box and, of a leaf,
+/// those of its facets' vertices, three each, or of a node with a contour one that tells, in two bytes, how
+/// many records after the tree's first that begins; a record that leads nowhere; then the contours, each loop
+/// its vertices and the first once more. A box: the low and the high corner in 256 steps each, a byte a
+/// coordinate, then in two bytes by how many records what follows all of the node lies after it, and 32768 of
+/// a leaf, 16384 of another with a contour. Vertices are as in lists; byte 6 is 32 where a loop of a contour
+/// starts, 1 of the last vertex of a leaf or contour.
 std::size_t recordsOf(const outlines::FacetTree& tree);
 
 /// Writes recordsOf() · kRecordBytes bytes.
