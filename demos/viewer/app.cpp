@@ -95,7 +95,8 @@ Status App::start() {
                       .title = "Halfshadow",
                       .vsync = options_.isScripted() ? WindowOptions::Vsync::off : WindowOptions::Vsync::on,
                       .depthBits = 0,
-                      .stencilBits = 0});
+                      .stencilBits = 0,
+                      .context = options_.context});
   if (!window) return window.error();
   window_ = std::move(window).value();
   if (options_.windowX && options_.windowY) window_->setPosition({*options_.windowX, *options_.windowY});
@@ -144,7 +145,7 @@ measure::HostContext App::hostContext() {
   return {.getProcAddress = [](const char* name,
                                void* user) { return static_cast<Window*>(user)->getProcAddress(name); },
           .user = window_.get(),
-          .description = "a window"};
+          .description = std::string("a window, ") + window_->contextName()};
 }
 
 bool App::waitForNews() {

@@ -50,6 +50,7 @@ Status App::writeFacts() {
                                        {"scene", view.source},
                                        {"technique", view.technique},
                                        {"size", {view.width, view.height}},
+                                       {"context", window_->contextName()},
                                        {"renderer", picture_->engine().driver().renderer},
                                        {"message", state_.message},
                                        {"command", commandLine(view, "halfshadow render", "-o picture.png")}};

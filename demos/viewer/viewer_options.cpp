@@ -3,6 +3,7 @@
 #include "viewer/viewer_options.hpp"
 
 #include <cstdio>
+#include <map>
 
 #include "options.hpp"
 #include "output.hpp"
@@ -17,6 +18,14 @@ constexpr const char* kAbout =
     "settings, compare them with ray-traced truth, look at what they cost. Press ? in the window for the "
     "keys.";
 
+const std::map<std::string, WindowOptions::Context>& contexts() {
+  static const std::map<std::string, WindowOptions::Context> kContexts = {
+      {"any", WindowOptions::Context::any},
+      {"egl", WindowOptions::Context::egl},
+      {"glx", WindowOptions::Context::glx}};
+  return kContexts;
+}
+
 void addWindowArguments(CLI::App& app, ViewerOptions& options, std::string& window) {
   app.add_option("--window", window,
                  "size of the window WIDTHxHEIGHT in screen coordinates (default: as remembered)")
@@ -30,6 +39,11 @@ void addWindowArguments(CLI::App& app, ViewerOptions& options, std::string& wind
       });
   app.add_option("--scale", options.scale, "of text and panels, 0.5 to 4 (default: the desktop's)")
       ->check(CLI::Range(0.5, 4.0));
+  app.add_option_function<std::string>(
+         "--context", [&options](const std::string& name) { options.context = contexts().at(name); },
+         "what makes the OpenGL ES context: egl, glx (its ES profile), or any: egl where it works, else glx")
+      ->check(CLI::IsMember(std::vector<std::string>{"any", "egl", "glx"}))
+      ->default_str("any");
   app.add_option("--script", options.script, "play this file instead of waiting for hands (see below)");
   app.add_option("--frames", options.frames, "end after so many frames, and not before; a script must fit in")
       ->check(CLI::Range(1, 10000000));

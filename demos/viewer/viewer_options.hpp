@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "viewer/view.hpp"
+#include "window/window.hpp"
 
 namespace halfshadow::viewer {
 
@@ -20,7 +21,8 @@ struct ViewerOptions {
   std::optional<int> windowWidth, windowHeight;  ///< screen coordinates
   std::optional<int> fixedWidth, fixedHeight;    ///< of the picture, pixels
   std::optional<int> windowX, windowY;           ///< as remembered
-  double scale = 0.0;                            ///< of text and panels; 0 = the desktop's
+  WindowOptions::Context context = WindowOptions::Context::any;
+  double scale = 0.0;  ///< of text and panels; 0 = the desktop's
   std::string script, screenshot, json, controls, remember = "auto";
   int samples = 4096;  ///< of the truth
   int frames = 0;      ///< 0 = until the script ends, or the window is closed

@@ -23,6 +23,18 @@ void releaseGlfw() {
   if (--windowCount == 0) glfwTerminate();
 }
 
+/// The ways to a context, the first that works is taken.
+struct ContextWay {
+  WindowOptions::Context context;
+  int glfwApi;
+  const char* name;
+  const char* packages;  ///< Debian's
+};
+constexpr ContextWay kWays[] = {
+    {WindowOptions::Context::egl, GLFW_EGL_CONTEXT_API, "EGL", "libegl1, libgles2 and libegl-mesa0"},
+    {WindowOptions::Context::glx, GLFW_NATIVE_CONTEXT_API, "GLX",
+     "libgl1, libgles2, libglx-mesa0, and a display with the GLX extension"}};
+
 WindowCallbacks::Action actionOf(int action) {
   if (action == GLFW_PRESS) return WindowCallbacks::Action::press;
   return action == GLFW_RELEASE ? WindowCallbacks::Action::release : WindowCallbacks::Action::repeat;
@@ -74,19 +86,23 @@ Result<std::unique_ptr<Window>> Window::create(const WindowOptions& options) {
   }
   // Each window holds GLFW alive, and so does this attempt.
   ++windowCount;
-  auto window = createWith(options, GLFW_EGL_CONTEXT_API);
-  if (!window) {
-    const std::string throughEgl = window.error().message;
-    window = createWith(options, GLFW_NATIVE_CONTEXT_API);
-    if (!window) {
-      window = Error{ErrorCode::driverMissing,
-                     "No OpenGL ES 2.0 window through EGL (" + throughEgl + "), nor through GLX (" +
-                         window.error().message +
-                         "); install libegl1, libgles2 and libegl-mesa0, or render without a window."};
-    }
-  }
+  auto window = createByAnyOf(options);
   releaseGlfw();
   return window;
+}
+
+Result<std::unique_ptr<Window>> Window::createByAnyOf(const WindowOptions& options) {
+  using Context = WindowOptions::Context;
+  std::string reasons;
+  for (const ContextWay& way : kWays) {
+    if (options.context != Context::any && options.context != way.context) continue;
+    auto window = createWith(options, way.glfwApi);
+    if (window) return window;
+    reasons += (reasons.empty() ? "through " : ", nor through ") + std::string(way.name) + " (" +
+               window.error().message + "; it needs " + way.packages + ")";
+  }
+  return Error{ErrorCode::driverMissing, "No window with OpenGL ES 2.0 can be opened " + reasons +
+                                             "; install what is missing, or render without a window."};
 }
 
 Result<std::unique_ptr<Window>> Window::createWith(const WindowOptions& options, int contextApi) {
@@ -211,6 +227,11 @@ void Window::setTitle(const std::string& title) {
 
 double Window::timeSeconds() const {
   return glfwGetTime();
+}
+
+const char* Window::contextName() const {
+  const int api = glfwGetWindowAttrib(window_, GLFW_CONTEXT_CREATION_API);
+  return api == GLFW_EGL_CONTEXT_API ? "EGL" : "GLX";
 }
 
 void* Window::getProcAddress(const char* name) const {

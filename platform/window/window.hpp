@@ -24,6 +24,10 @@ struct WindowOptions {
   int depthBits = 24, stencilBits = 8;  ///< of framebuffer 0
   enum class Visibility { shown, hidden };
   Visibility visibility = Visibility::shown;
+  /// What makes the context: `any` is EGL, and where that has none GLX, whose ES profile most X servers'
+  /// drivers offer as well.
+  enum class Context { any, egl, glx };
+  Context context = Context::any;
 };
 
 /// Positions are in screen coordinates from the window's top left corner. Unset ones are ignored.
@@ -43,7 +47,8 @@ struct WindowCallbacks {
 /// The context is current on the creating thread. One thread makes and uses all windows.
 class Window {
  public:
-  /// Errors: invalidArgument (size), driverMissing (no display, or no OpenGL ES 2.0 through EGL).
+  /// Errors: invalidArgument (size), driverMissing (no display, or no OpenGL ES 2.0 by the allowed ways; the
+  /// sentence gives each way's reason).
   static Result<std::unique_ptr<Window>> create(const WindowOptions& options);
   ~Window();
   Window(const Window&) = delete;
@@ -102,11 +107,14 @@ class Window {
   double timeSeconds() const;  ///< since the first window was made
   /// Address of a GL entry point, or null.
   void* getProcAddress(const char* name) const;
+  /// What made the context: "EGL" or "GLX".
+  const char* contextName() const;
   /// For libraries that take a GLFW window, such as Dear ImGui's backend.
   GLFWwindow* handle() const { return window_; }
 
  private:
   Window() = default;
+  static Result<std::unique_ptr<Window>> createByAnyOf(const WindowOptions& options);
   static Result<std::unique_ptr<Window>> createWith(const WindowOptions& options, int contextApi);
   GLFWwindow* window_ = nullptr;
   WindowCallbacks callbacks_;

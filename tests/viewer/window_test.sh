@@ -39,16 +39,21 @@ if [[ $case == refused ]]; then
   exit 0
 fi
 
-Xvfb -displayfd 3 -screen 0 1400x900x24 -nolisten tcp 3>display >xvfb.log 2>&1 &
-server=$!
-trap 'kill $server 2>/dev/null || true' EXIT
-for _ in $(seq 100); do
-  [[ -s display ]] && break
-  sleep 0.1
-done
-[[ -s display ]] || { echo "skipped: Xvfb does not start here: $(tail -n 1 xvfb.log)"; exit 77; }
-DISPLAY=:$(tr -d '[:space:]' <display)
-export DISPLAY
+servers=()
+trap 'for server in "${servers[@]}"; do kill "$server" 2>/dev/null || true; done' EXIT
+serve() {  # OPTIONS...: a virtual display, which DISPLAY names from then on
+  rm -f display
+  Xvfb -displayfd 3 -screen 0 1400x900x24 -nolisten tcp "$@" 3>display >xvfb.log 2>&1 &
+  servers+=($!)
+  for _ in $(seq 100); do
+    [[ -s display ]] && break
+    sleep 0.1
+  done
+  [[ -s display ]] || { echo "skipped: Xvfb does not start here: $(tail -n 1 xvfb.log)"; exit 77; }
+  DISPLAY=:$(tr -d '[:space:]' <display)
+  export DISPLAY
+}
+serve
 
 play() {  # ARGUMENTS...: plays `script`, leaves facts.json
   "$viewer" --window "${window:-700x420}" --samples 16 --script script --json facts.json "$@"
@@ -61,7 +66,7 @@ fail() {
 same() {  # NAME: NAME.png of the viewer and the picture of the command line in NAME.txt
   local command
   command=$(sed "s#^halfshadow#'$tool'#; s#-o picture.png#-o '$1.tool.png'#" "$1.txt")
-  bash -c "$command" || fail "the copied command line is refused: $command"
+  env -u __EGL_VENDOR_LIBRARY_FILENAMES bash -c "$command" || fail "the copied command line is refused: $command"
   "$tool" compare "$1.png" "$1.tool.png" --json "$1.json" >/dev/null || fail "compare $1"
   awk -v name="$1" 'BEGIN { worst = 0 } /"rmse"/ { gsub(/[^0-9.e-]/, "", $2); seen = 1; if ($2 + 0 > worst) worst = $2 + 0 }
     END { print name ": RMSE " worst; exit !(seen && worst + 0 <= 0.002) }' "$1.json" || fail "$1 differs: $command"
@@ -213,6 +218,34 @@ JSON
       [[ -s $name.png ]] || fail "$name.png is missing"
     done
     cmp -s truth.png heat.png && fail "the heat map shows nothing"
+    ;;
+  contexts)
+    keep any >script
+    opens() {  # NAME ARGUMENTS...: it opens through NAME, and draws what the tool does
+      play builtin:box "${@:2}"
+      [[ $(fact context) == "$1" ]] || fail "a context of $(fact context), wanted $1"
+      [[ $(fact gl_errors) == 0 ]] || fail "OpenGL errors through $1"
+      same any
+    }
+    refuse() {  # NAMES ARGUMENTS...: it ends, and says why of each way
+      local name status=0
+      play builtin:box "${@:2}" 2>err || status=$?
+      [[ $status == 1 ]] || fail "status $status with $*"
+      for name in $1; do grep -q "through $name (" err || fail "nothing of $name in: $(cat err)"; done
+      grep -q "install" err || fail "no way out in: $(cat err)"
+    }
+    opens EGL
+    opens EGL --context egl
+    opens GLX --context glx
+    # The system's EGL without any driver.
+    export __EGL_VENDOR_LIBRARY_FILENAMES=/dev/null
+    opens GLX
+    refuse EGL --context egl
+    serve -extension GLX
+    refuse "EGL GLX"
+    unset __EGL_VENDOR_LIBRARY_FILENAMES
+    refuse GLX --context glx
+    opens EGL
     ;;
   *) fail "no case $case" ;;
 esac
