@@ -37,6 +37,15 @@ std::string fileStem(const std::string& source) {
   return stem;
 }
 
+/// What names this run's driver on another command line.
+scenes::ViewCommand deviceWords(const DriverArguments& driver) {
+  scenes::ViewCommand words;
+  for (const std::string& text : driver.force) words.forcedOff.push_back(text.substr(0, text.find('=')));
+  words.driver = driver.driver, words.eglLibrary = driver.eglLibrary;
+  words.deviceProfile = driver.deviceProfile;
+  return words;
+}
+
 /// Errors: fileNotWritable (--output), those of reading scenes and rendering.
 Result<report::SceneReport> reportScene(measure::EngineSession& session, const std::string& source,
                                         const std::vector<std::string>& ids, const Arguments& arguments) {
@@ -50,8 +59,15 @@ Result<report::SceneReport> reportScene(measure::EngineSession& session, const s
   report::SceneReport result{
       .title = source.starts_with("builtin:") ? source : std::filesystem::path(source).filename().string(),
       .description = report::describeScene(*scene),
+      .view = deviceWords(arguments.driver),
       .truth = std::move(*truth)};
   const std::vector<measure::Setting> settings = settingsOf(arguments.settings);
+  result.view.source = source;
+  // One light is measured, also of a scene with more.
+  if (scene->lights.size() > 1) result.view.lights = {scene->lights.front()};
+  for (const measure::Setting& setting : settings)
+    result.view.settings.emplace_back(setting.key, setting.value);
+  result.view.width = arguments.size.width, result.view.height = arguments.size.height;
   for (const std::string& id : ids) {
     progress.update(source + ": " + id,
                     static_cast<double>(result.techniques.size()) / static_cast<double>(ids.size()));
@@ -97,7 +113,7 @@ void printScene(const report::SceneReport& scene) {
 /// those of rendering.
 Status addPapers(measure::EngineSession& session, const Arguments& arguments, report::Report& document) {
   using Paper = Result<papers::PaperResult> (*)(measure::EngineSession&, const papers::PaperOptions&);
-  papers::PaperOptions options{.samples = arguments.samples};
+  papers::PaperOptions options{.samples = arguments.samples, .device = deviceWords(arguments.driver)};
   options.repetitions = std::min(arguments.frames, options.repetitions);
   const auto model = std::ranges::find_if(
       arguments.scenes, [](const std::string& source) { return !source.starts_with("builtin:"); });

@@ -58,7 +58,9 @@ Result<Comparison> compare(measure::EngineSession& session, const std::string& s
   };
   auto truth = measure::traceTruth(*scene, options.width, options.height, options.samples, progress);
   if (!truth) return truth.error();
-  Comparison result{.source = source, .truth = std::move(*truth)};
+  Comparison result{.source = source, .view = options.device, .truth = std::move(*truth)};
+  result.view.source = source;
+  result.view.width = options.width, result.view.height = options.height;
   std::vector<measure::Configuration> configurations;
   for (const Variant& variant : variants) {
     progress("errors of " + variant.label,
@@ -96,8 +98,14 @@ Result<std::string> picturesOf(const Comparison& comparison, std::size_t first, 
     const ComparedVariant& variant = comparison.variants[i];
     std::string numbers = errorText(variant.measurement);
     if (variant.times.frame.frames > 0) numbers += " · " + report::timeText(variant.times.frame) + " ms";
-    pictures.push_back(
-        {.title = variant.variant.label, .measurement = &variant.measurement, .numbers = std::move(numbers)});
+    scenes::ViewCommand view = comparison.view;
+    view.technique = variant.variant.configuration.technique;
+    for (const measure::Setting& setting : variant.variant.configuration.settings)
+      view.settings.emplace_back(setting.key, setting.value);
+    pictures.push_back({.title = variant.variant.label,
+                        .view = std::move(view),
+                        .measurement = &variant.measurement,
+                        .numbers = std::move(numbers)});
   }
   return report::comparisonHtml(comparison.truth, pictures);
 }

@@ -33,6 +33,7 @@ struct ComparedVariant {
 
 struct Comparison {
   std::string source;
+  scenes::ViewCommand view;  ///< opens the scene as it was drawn; without technique
   measure::Truth truth;
   std::vector<ComparedVariant> variants;
 };

@@ -9,6 +9,7 @@
 
 #include "measure/measurement_json.hpp"
 #include "report/section.hpp"
+#include "scenes/view_command.hpp"
 
 namespace halfshadow::papers {
 
@@ -18,6 +19,8 @@ struct PaperOptions {
   int repetitions = 3;  ///< timed frames of each configuration
   /// A .gltf or .glb file that joins the built-in scenes; may be empty.
   std::string model{};
+  /// Driver, device profile and what is forced off: the words that the page's command lines repeat.
+  scenes::ViewCommand device{};
   measure::Progress progress{};
 };
 

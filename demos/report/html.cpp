@@ -70,6 +70,11 @@ td.front { color: var(--front); font-weight: 650; }
 thead tr.groups th { border-bottom: 1px solid var(--line); text-align: center; }
 td small { color: var(--soft); }
 details { margin-top: 10px; }
+.view { margin-top: 6px; font-size: 12.5px; }
+.view code {
+  display: block; margin: 4px 0; padding: 6px 8px; border: 1px solid var(--line); border-radius: 6px;
+  background: var(--page); white-space: pre-wrap; overflow-wrap: anywhere; user-select: all;
+}
 summary { cursor: pointer; color: var(--accent); padding: 4px 0; }
 svg { display: block; width: 100%; height: auto; }
 svg text { fill: var(--ink); font: 12.5px system-ui, sans-serif; }

@@ -24,6 +24,10 @@ std::string sectionAnchor(std::size_t index) {
 
 std::string header(const Report& report) {
   std::string html = "<h1>" + escaped(report.title) + "</h1>\n<p>" + escaped(report.introduction) + "</p>\n";
+  html +=
+      "<p class=\"soft\">\"Open this view\" below a picture holds two command lines: one shows it in the "
+      "viewer, where it can be moved, the other makes it again. Both programs are in the build's folder bin; "
+      "files are named as they were when this page was made.</p>\n";
   const Device& device = report.device;
   html += "<dl class=\"facts\">";
   for (const auto& [name, value] : std::initializer_list<std::pair<const char*, const std::string&>>{

@@ -23,6 +23,7 @@ Device deviceOf(const DriverRecord& driver);
 struct SceneReport {
   std::string title;          ///< "builtin:figure"
   std::string description;    ///< one line: objects, triangles, light
+  scenes::ViewCommand view;   ///< opens the scene as it was measured; without technique
   measure::RgbaImage shaded;  ///< may be empty
   std::string shadedWith;     ///< the technique of `shaded`
   measure::Truth truth;       ///< of the same size

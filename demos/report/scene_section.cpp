@@ -25,6 +25,12 @@ std::string settingsText(const TechniqueMeasurement& technique) {
   return escaped(result);
 }
 
+scenes::ViewCommand viewOf(const SceneReport& scene, const std::string& technique) {
+  scenes::ViewCommand view = scene.view;
+  view.technique = technique;
+  return view;
+}
+
 Result<std::string> pictures(const SceneReport& scene) {
   const measure::Truth& truth = scene.truth;
   std::string html = "<div class=\"pair\">\n";
@@ -33,8 +39,10 @@ Result<std::string> pictures(const SceneReport& scene) {
     for (std::size_t i = 3; i < opaque.size(); i += 4) opaque[i] = 255;
     auto uri = pngUri(scene.shaded.width, scene.shaded.height, 4, opaque);
     if (!uri) return uri.error();
-    html += figureHtml(*uri, scene.shadedWith.empty() ? "Shaded" : "Shaded with " + scene.shadedWith,
-                       scene.shaded.width, scene.shaded.height);
+    html += "<div>" +
+            figureHtml(*uri, scene.shadedWith.empty() ? "Shaded" : "Shaded with " + scene.shadedWith,
+                       scene.shaded.width, scene.shaded.height) +
+            viewCommandsHtml(viewOf(scene, scene.shadedWith), PictureKind::shaded) + "</div>\n";
   }
   auto reference = visibilityUri(truth.width, truth.height, truth.visibility, truth.receivers.kind);
   if (!reference) return reference.error();
@@ -60,7 +68,7 @@ Result<std::string> techniqueCard(const SceneReport& scene, const TechniqueMeasu
           figureHtml(*errors, "error", truth.width, truth.height) + "</div>\n";
   return html + "<div class=\"numbers\">penumbra RMSE <b>" + fixed(technique.error.penumbra.rmse, 4) +
          "</b> · receiver MAE " + fixed(technique.error.receiver.mae, 4) + " · " + timeText(technique.time) +
-         " ms</div></div>\n";
+         " ms</div>" + viewCommandsHtml(viewOf(scene, technique.id), PictureKind::visibility) + "</div>\n";
 }
 
 std::string numbersTable(const SceneReport& scene, const std::vector<std::string>& names) {

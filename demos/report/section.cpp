@@ -39,6 +39,21 @@ std::string plotHtml(const std::string& svg, const std::string& note) {
   return "<div class=\"card\">" + svg + "</div>\n<p class=\"soft\">" + escaped(note) + "</p>\n";
 }
 
+std::string viewCommandsHtml(const scenes::ViewCommand& view, PictureKind kind) {
+  const bool isShaded = kind == PictureKind::shaded;
+  scenes::ViewCommand inWindow = view;
+  // A window is drawn by a driver of the system's own.
+  if (view.driver != "llvmpipe" && view.driver != "softpipe") inWindow.driver = "default";
+  inWindow.eglLibrary.clear();
+  const std::string commands[] = {
+      scenes::commandText("halfshadow-viewer", inWindow, isShaded ? "" : "--show visibility --beside truth"),
+      scenes::commandText("halfshadow render", view,
+                          isShaded ? "-o picture.png" : "--visibility picture.exr")};
+  std::string html = "<details class=\"view\"><summary>open this view</summary>";
+  for (const std::string& command : commands) html += "<code>" + escaped(command) + "</code>";
+  return html + "</details>\n";
+}
+
 Result<std::string> comparisonHtml(const measure::Truth& truth,
                                    const std::vector<ComparedPicture>& pictures) {
   const std::vector<std::uint8_t>& receivers = truth.receivers.kind;
@@ -60,7 +75,8 @@ Result<std::string> comparisonHtml(const measure::Truth& truth,
     html += "<div class=\"card\"><h4>" + escaped(picture.title) + "</h4>\n" +
             figureHtml(*visibility, "visibility", truth.width, truth.height) +
             figureHtml(*errors, "difference to the reference", truth.width, truth.height) +
-            "<div class=\"numbers\">" + escaped(picture.numbers) + "</div></div>\n";
+            "<div class=\"numbers\">" + escaped(picture.numbers) + "</div>" +
+            viewCommandsHtml(picture.view, PictureKind::visibility) + "</div>\n";
   }
   return html + "</div>\n";
 }

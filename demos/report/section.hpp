@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "measure/measurement.hpp"
+#include "scenes/view_command.hpp"
 
 namespace halfshadow::report {
 
@@ -30,9 +31,15 @@ std::string tableHtml(const Table& table);
 /// `svg` of scatterSvg or lineSvg; empty stays empty.
 std::string plotHtml(const std::string& svg, const std::string& note);
 
+/// The command lines that show `view` again, folded up below its picture: in the viewer, beside the truth
+/// where the picture is of visibility, and by `halfshadow render`.
+enum class PictureKind { shaded, visibility };
+std::string viewCommandsHtml(const scenes::ViewCommand& view, PictureKind kind);
+
 /// One picture beside the truth.
 struct ComparedPicture {
   std::string title;
+  scenes::ViewCommand view;
   const measure::TechniqueMeasurement* measurement = nullptr;  ///< measured
   std::string numbers{};                                       ///< below the pictures
 };

@@ -113,10 +113,29 @@ Status App::start() {
   auto picture = Picture::open(hostContext(), view);
   if (!picture) return picture.error();
   picture_ = std::move(picture).value();
+  if (Status status = beginComparison(); !status) return status;
   truth_ = std::make_unique<TruthWorker>(options_.samples, [this] {
     truthHasNews_ = true;
     Window::wake();
   });
+  return {};
+}
+
+Status App::beginComparison() {
+  state_.showing = options_.showing;
+  if (options_.beside.empty()) return {};
+  if (options_.beside == "truth") {
+    state_.compare = Compare::truth;
+    return {};
+  }
+  if (std::ranges::find(picture_->techniques(), options_.beside, &TechniqueChoice::id) ==
+      picture_->techniques().end()) {
+    return Error{ErrorCode::unknownTechnique,
+                 "--beside: there is no technique \"" + options_.beside +
+                     "\"; give truth, or one that `halfshadow techniques` lists"};
+  }
+  state_.compare = Compare::technique;
+  state_.otherTechnique = options_.beside;
   return {};
 }
 

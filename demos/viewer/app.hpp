@@ -45,6 +45,7 @@ class App final : public Stage {
   App() = default;
   Status start();
   Status startUi();
+  Status beginComparison();
   measure::HostContext hostContext();
   void knowAgain();
   Status remember();

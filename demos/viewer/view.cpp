@@ -3,48 +3,17 @@
 #include "viewer/view.hpp"
 
 #include <algorithm>
-#include <charconv>
-#include <glm/trigonometric.hpp>
 
-#include "scenes/camera_light_options.hpp"
+#include "scenes/view_command.hpp"
 
 namespace halfshadow::viewer {
 namespace {
-/// The shortest text that is read back as the same number.
-std::string numberText(double value) {
-  char text[32];
-  const auto [end, error] = std::to_chars(text, text + sizeof text, value == 0.0 ? 0.0 : value);
-  return {text, end};
-}
-
-std::string vectorText(const char* key, const glm::dvec3& v) {
-  return std::string(key) + "=" + numberText(v.x) + "," + numberText(v.y) + "," + numberText(v.z);
-}
-
-std::string quoted(const std::string& text) {
-  constexpr std::string_view kPlain =
-      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=:,./@%";
-  if (!text.empty() && text.find_first_not_of(kPlain) == std::string::npos) return text;
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
-}
-
 bool isGround(const scene::SceneObject& object) {
   return object.name == "ground" && !object.casts;
 }
 
 bool hasGround(const scene::SceneDescription& scene) {
   return std::ranges::any_of(scene.objects, isGround);
-}
-
-/// Degrees that become these radians again: one rounding there and one back may miss by the last digit.
-double degreesOf(double radians) {
-  double degrees = glm::degrees(radians);
-  for (const double candidate : {degrees, std::nextafter(degrees, 0.0), std::nextafter(degrees, 180.0)}) {
-    if (glm::radians(candidate) == radians) return candidate;
-  }
-  return degrees;
 }
 
 bool sameCamera(const scene::Camera& a, const scene::Camera& b) {
@@ -61,7 +30,9 @@ bool sameTruth(const View& a, const View& b) {
 Status openScene(View& view, Keep keep) {
   scenes::SceneOptions options{.ground = view.ground,
                                .animationTimeSeconds = view.animationSeconds,
-                               .animationIndex = view.animationIndex};
+                               .animationIndex = view.animationIndex,
+                               .up = view.up,
+                               .sides = view.sides};
   const bool keeps = keep != Keep::nothing && view.scene != nullptr;
   if (keeps) {
     options.camera = view.camera;
@@ -86,38 +57,17 @@ Status openScene(View& view, Keep keep) {
   return {};
 }
 
-std::string cameraText(const scene::Camera& camera) {
-  return vectorText("eye", camera.eyeWorld) + " " + vectorText("target", camera.targetWorld) +
-         " fov=" + numberText(degreesOf(camera.verticalFovRadians)) + " " + vectorText("up", camera.up);
-}
-
-std::string lightText(const scene::AreaLight& light) {
-  std::string text = vectorText("center", light.centerWorld) + " " + vectorText("u", light.halfU) + " " +
-                     vectorText("v", light.halfV);
-  if (light.halfU == glm::dvec3(0.0) && light.halfV == glm::dvec3(0.0))
-    text += " " + vectorText("emission", light.emission);
-  return text + " " + vectorText("color", glm::dvec3(light.color)) +
-         " intensity=" + numberText(light.intensity) + " reference=" + numberText(light.referenceDistance);
-}
-
 std::string commandLine(const View& view, const std::string& program, const std::string& output) {
-  std::string text = program + " " + quoted(view.source);
-  const auto add = [&](const std::string& option, const std::string& value) {
-    text += " " + option + " " + quoted(value);
-  };
-  add("--camera", cameraText(view.camera));
-  for (const scene::AreaLight& light : view.lights) add("--light", lightText(light));
-  if (view.scene) add("--ground", hasGround(*view.scene) ? "on" : "off");
-  if (view.animationSeconds != 0.0) add("--animation-time", numberText(view.animationSeconds));
-  if (view.animationIndex != 0) add("--animation", std::to_string(view.animationIndex));
-  add("-t", view.technique);
-  for (const auto& [key, value] : view.choices) add("--set", key + "=" + value);
-  for (const std::string& name : view.forcedOff) add("--force", name + "=off");
-  if (view.driver != "default") add("--driver", view.driver);
-  if (view.deviceProfile != "auto") add("--device-profile", view.deviceProfile);
-  add("--size", std::to_string(view.width) + "x" + std::to_string(view.height));
-  if (!output.empty()) text += " " + output;
-  return text;
+  scenes::ViewCommand command{.source = view.source, .camera = view.camera, .lights = view.lights};
+  if (view.scene) command.ground = hasGround(*view.scene) ? scenes::GroundMode::on : scenes::GroundMode::off;
+  command.up = view.up, command.sides = view.sides;
+  command.animationSeconds = view.animationSeconds, command.animationIndex = view.animationIndex;
+  command.technique = view.technique;
+  command.settings.assign(view.choices.begin(), view.choices.end());
+  command.forcedOff = view.forcedOff;
+  command.driver = view.driver, command.deviceProfile = view.deviceProfile;
+  command.width = view.width, command.height = view.height;
+  return scenes::commandText(program, command, output);
 }
 
 }  // namespace halfshadow::viewer

@@ -21,6 +21,8 @@ using Choices = std::map<std::string, std::string>;
 struct View {
   std::string source = "builtin:figure";  ///< as openScene takes it
   scenes::GroundMode ground = scenes::GroundMode::automatic;
+  glm::dvec3 up{0, 1, 0};  ///< as in scenes::SceneOptions
+  scenes::Sides sides = scenes::Sides::asInFile;
   int animationIndex = 0;
   double animationSeconds = 0.0;
   std::shared_ptr<const scene::SceneDescription> scene;  ///< null until one could be opened
@@ -44,12 +46,7 @@ bool sameTruth(const View& a, const View& b);
 enum class Keep { nothing, cameraAndLights, ground };
 Status openScene(View& view, Keep keep);
 
-/// `program`, then all of the view in quotes where a shell needs them: "halfshadow render", say. Numbers are
-/// written so that they are read back as they are.
+/// See scenes::commandText. Camera and lights are said even where they are the scene's own.
 std::string commandLine(const View& view, const std::string& program, const std::string& output);
-
-/// The words of --camera and --light, without quotes.
-std::string cameraText(const scene::Camera& camera);
-std::string lightText(const scene::AreaLight& light);
 
 }  // namespace halfshadow::viewer

@@ -44,6 +44,16 @@ void addWindowArguments(CLI::App& app, ViewerOptions& options, std::string& wind
          "what makes the OpenGL ES context: egl, glx (its ES profile), or any: egl where it works, else glx")
       ->check(CLI::IsMember(std::vector<std::string>{"any", "egl", "glx"}))
       ->default_str("any");
+  app.add_option_function<std::string>(
+         "--show",
+         [&options](const std::string& name) {
+           options.showing = name == "shaded" ? Showing::shaded : Showing::visibility;
+         },
+         "shaded (lit colours) or visibility")
+      ->check(CLI::IsMember({"shaded", "visibility"}))
+      ->default_str("shaded");
+  app.add_option("--beside", options.beside,
+                 "what to compare with from the start: a technique, or truth (default: nothing)");
   app.add_option("--script", options.script, "play this file instead of waiting for hands (see below)");
   app.add_option("--frames", options.frames, "end after so many frames, and not before; a script must fit in")
       ->check(CLI::Range(1, 10000000));
@@ -106,7 +116,7 @@ std::optional<ViewerOptions> parseOptions(int argc, char** argv, int& status) {
   if (options.sceneIsGiven) view.source = scene.source;
   view.technique = options.techniqueIsGiven ? technique : "pcss-mip";
   const scenes::SceneOptions parsed = cli::sceneOptions(scene);
-  view.ground = parsed.ground;
+  view.ground = parsed.ground, view.up = parsed.up, view.sides = parsed.sides;
   view.animationIndex = parsed.animationIndex;
   view.animationSeconds = parsed.animationTimeSeconds;
   options.camera = parsed.camera;
@@ -114,6 +124,12 @@ std::optional<ViewerOptions> parseOptions(int argc, char** argv, int& status) {
   options.lights.insert(options.lights.end(), parsed.moreLights.begin(), parsed.moreLights.end());
   for (const measure::Setting& setting : cli::settingsOf(settings)) view.choices[setting.key] = setting.value;
   for (const std::string& text : driver.force) view.forcedOff.push_back(text.substr(0, text.find('=')));
+  if (!driver.eglLibrary.empty()) {
+    cli::say(
+        "--egl-library: a window is drawn by the system's own EGL; leave it out, or use `halfshadow render`");
+    status = cli::kBadUsage;
+    return std::nullopt;
+  }
   view.driver = driver.driver;
   view.deviceProfile = driver.deviceProfile;
   if (sizeOption->count() > 0) options.fixedWidth = size.width, options.fixedHeight = size.height;

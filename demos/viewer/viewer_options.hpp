@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "viewer/view.hpp"
+#include "viewer/ui_state.hpp"
 #include "window/window.hpp"
 
 namespace halfshadow::viewer {
@@ -22,6 +22,8 @@ struct ViewerOptions {
   std::optional<int> fixedWidth, fixedHeight;    ///< of the picture, pixels
   std::optional<int> windowX, windowY;           ///< as remembered
   WindowOptions::Context context = WindowOptions::Context::any;
+  Showing showing = Showing::shaded;
+  std::string beside;  ///< a technique's id or "truth"; empty = nothing
   double scale = 0.0;  ///< of text and panels; 0 = the desktop's
   std::string script, screenshot, json, controls, remember = "auto";
   int samples = 4096;  ///< of the truth

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "scenes/camera_light_options.hpp"
+#include "scenes/view_command.hpp"
 #include "viewer/view.hpp"
 
 namespace halfshadow::viewer {
@@ -24,7 +25,7 @@ TEST(CommandLine, CamerasAreReadBackAsTheyAre) {
                          .targetWorld = randomVector(random),
                          .up = randomVector(random),
                          .verticalFovRadians = 0.01 + 0.002 * i};
-    const auto read = scenes::parseCamera(cameraText(camera));
+    const auto read = scenes::parseCamera(scenes::cameraText(camera));
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(read->eyeWorld, camera.eyeWorld);
     EXPECT_EQ(read->targetWorld, camera.targetWorld);
@@ -41,7 +42,7 @@ TEST(CommandLine, LightsAreReadBackAsTheyAre) {
     ASSERT_TRUE(light.ok());
     light->color = glm::vec3(0.1f * static_cast<float>(i % 7), 0.5f, 1.7f);
     light->intensity = 0.3 * i, light->referenceDistance = 1.0 / (1 + i);
-    const auto read = scenes::parseLight(lightText(*light));
+    const auto read = scenes::parseLight(scenes::lightText(*light));
     ASSERT_TRUE(read.ok()) << read.error().message;
     EXPECT_EQ(*read, *light);
   }
@@ -50,7 +51,7 @@ TEST(CommandLine, LightsAreReadBackAsTheyAre) {
 TEST(CommandLine, PointsKeepTheirDirection) {
   auto light = scene::areaLightAimed({1, 5, 2}, {0.3, 0, -1}, 0, 0, {0, 1, 0});
   ASSERT_TRUE(light.ok());
-  const auto read = scenes::parseLight(lightText(*light));
+  const auto read = scenes::parseLight(scenes::lightText(*light));
   ASSERT_TRUE(read.ok()) << read.error().message;
   EXPECT_LT(glm::distance(scene::emissionDirection(*read), scene::emissionDirection(*light)), 1e-15);
   EXPECT_EQ(read->referenceDistance, light->referenceDistance);

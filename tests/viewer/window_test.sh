@@ -219,6 +219,20 @@ JSON
     done
     cmp -s truth.png heat.png && fail "the heat map shows nothing"
     ;;
+  report)
+    # The report's page says how to see each of its pictures in the viewer.
+    "$tool" report builtin:figure -o report -t pcf,wedges --size 160x100 --samples 4 --frames 0 --set pcf.size=13 >/dev/null
+    sed -n 's#.*<summary>open this view</summary>##; s#<code>halfshadow-viewer \([^<]*\)</code>.*#\1#p' report/report.html >lines
+    [[ $(wc -l <lines) == 3 ]] || fail "lines of the page: $(cat lines)"
+    { echo "settle" && echo "screenshot window.png" && keep page; } >script
+    while read -r words; do
+      technique=$(sed 's/.* -t \([^ ]*\) .*/\1/' <<<"$words")
+      eval "play $(sed "s/&#39;/'/g" <<<"$words")"
+      same page
+      "$tool" compare page.png "report/figure-$technique.png" --json page.json >/dev/null
+      grep -q '"rmse": 0.0,' page.json || fail "not the report's picture: $words"
+    done <lines
+    ;;
   contexts)
     keep any >script
     opens() {  # NAME ARGUMENTS...: it opens through NAME, and draws what the tool does
