@@ -210,6 +210,7 @@ Status App::run() {
 
 Status App::frame() {
   const double now = window_->timeSeconds();
+  measuresFrame_ = false;
   const double seconds =
       options_.isScripted() ? kScriptStep : std::min(now - lastFrameSeconds_, kLongestStep);
   lastFrameSeconds_ = now;
@@ -234,7 +235,7 @@ Status App::frame() {
   overlay_->draw(*ImGui::GetDrawData());
   glErrors_ += takeGlErrors();
   window_->swap();
-  noteFrame();
+  noteFrame(now);
   return {};
 }
 

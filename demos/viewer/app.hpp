@@ -5,7 +5,6 @@
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -56,7 +55,7 @@ class App final : public Stage {
   void beginUi(double seconds);
   void buildUi();
   void advance(double seconds);
-  void noteFrame();
+  void noteFrame(double beganSeconds);
   Status finish();
   Status writeFacts();
 
@@ -89,7 +88,7 @@ class App final : public Stage {
   void onKey(int key, int modifiers);
   void stepTechnique(int step);
   ScreenSpace screen() const;
-  glm::dvec2 pixelOf(const glm::dvec2& windowPlace) const { return windowPlace * pixelsPerPoint_; }
+  glm::dvec2 pixelOf(const glm::dvec2& windowPlace) const { return windowPlace * picturePixelsPerPoint_; }
   bool isOnPicture(const glm::dvec2& place) const;
 
   ViewerOptions options_;
@@ -103,6 +102,7 @@ class App final : public Stage {
   std::unique_ptr<Picture> picture_, other_;
   std::unique_ptr<ScriptPlayer> player_;
   FrameTimes times_;
+  bool measuresFrame_ = false;  ///< this one is to be timed as a whole
   std::filesystem::file_time_type fileTime_{};
   std::atomic<bool> truthHasNews_{false};
   std::unique_ptr<TruthWorker> truth_;
@@ -118,6 +118,7 @@ class App final : public Stage {
 
   // Layout, in window coordinates.
   double pixelsPerPoint_ = 1.0, scale_ = 1.0;
+  double picturePixelsPerPoint_ = 1.0;  ///< the picture's own, which --size may magnify
   double pictureWidth_ = 1.0, pictureHeight_ = 1.0;
 
   // Hands.
@@ -138,7 +139,6 @@ class App final : public Stage {
   int glErrors_ = 0, reloads_ = 0;
   double lastFrameSeconds_ = 0.0;
   // For --json.
-  std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
   double firstPictureMs_ = 0.0, slowestSwitchMs_ = 0.0;
   std::uint64_t earlyResidentBytes_ = 0;
   int earlyObjects_ = 0;

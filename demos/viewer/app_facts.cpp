@@ -3,8 +3,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "measure/text_file.hpp"
 #include "viewer/app.hpp"
@@ -20,13 +23,36 @@ std::uint64_t residentBytes() {
   file >> all >> resident;
   return resident * static_cast<std::uint64_t>(sysconf(_SC_PAGESIZE));
 }
+
+/// Since the process was begun, loading of libraries included; to a hundredth of a second.
+double processAgeMs() {
+  std::ifstream file("/proc/self/stat");
+  std::string text;
+  std::getline(file, text);
+  // The program's name, in parentheses, may hold anything; the start stands 20 words behind it.
+  std::istringstream words(text.substr(text.rfind(')') + 1));
+  std::string word;
+  for (int i = 0; i < 20; ++i) words >> word;
+  timespec now{};
+  clock_gettime(CLOCK_BOOTTIME, &now);
+  const double startSeconds = std::strtod(word.c_str(), nullptr) / static_cast<double>(sysconf(_SC_CLK_TCK));
+  return 1e3 * (static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec) - startSeconds);
+}
+
+double medianMs(const std::vector<float>& values) {
+  return measure::timeStatistics(std::vector<double>(values.begin(), values.end())).medianMs;
+}
 }  // namespace
 
-void App::noteFrame() {
+void App::noteFrame(double beganSeconds) {
   if (firstPictureMs_ == 0.0) {
     picture_->engine().finish();
-    firstPictureMs_ =
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - started_).count();
+    firstPictureMs_ = processAgeMs();
+  }
+  if (measuresFrame_) {
+    picture_->engine().finish();
+    const double windowMs = 1e3 * (window_->timeSeconds() - beganSeconds);
+    times_.add(picture_->facts().cpuMs, picture_->facts().totalMs, windowMs);
   }
   if (frames_ != kEarlyFrame) return;
   earlyResidentBytes_ = residentBytes();
@@ -42,6 +68,9 @@ Status App::writeFacts() {
                                        {"gl_errors", glErrors_},
                                        {"first_picture_ms", firstPictureMs_},
                                        {"slowest_switch_ms", slowestSwitchMs_},
+                                       {"timed_frames", times_.count()},
+                                       {"engine_frame_ms", medianMs(times_.total())},
+                                       {"window_frame_ms", medianMs(times_.window())},
                                        {"resident_bytes_at_frame_200", earlyResidentBytes_},
                                        {"resident_bytes", residentBytes()},
                                        {"gl_objects_at_frame_200", earlyObjects_},

@@ -71,8 +71,8 @@ void App::onPress(int button, int modifiers) {
   }
   drag_ = Drag::orbit;
   if (!state_.showsHandles) return;
-  held_ =
-      handleAt(handlesOf(state_.view.lights, screen()), pixelOf(pointer_), kReach * pixelsPerPoint_ * scale_);
+  held_ = handleAt(handlesOf(state_.view.lights, screen()), pixelOf(pointer_),
+                   kReach * picturePixelsPerPoint_ * scale_);
   if (!held_) return;
   drag_ = Drag::handle;
   state_.light = held_->light;

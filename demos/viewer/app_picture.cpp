@@ -27,16 +27,22 @@ void App::layOut() {
   pictureWidth_ = std::max(static_cast<double>(size.x) - panels, 64.0);
   pictureHeight_ = std::max(static_cast<double>(size.y), 64.0);
   View& view = state_.view;
-  if (options_.fixedWidth) {
-    // As many pixels as asked for, in what room there is.
-    pictureWidth_ = *options_.fixedWidth / pixelsPerPoint_;
-    pictureHeight_ = *options_.fixedHeight / pixelsPerPoint_;
-  }
-  const auto pixels = [&](double points) {
-    return std::clamp(static_cast<int>(std::lround(points * pixelsPerPoint_)), 1, picture_->sizeLimit());
+  const auto allowed = [&](double pixels) {
+    return std::clamp(static_cast<int>(std::lround(pixels)), 1, picture_->sizeLimit());
   };
-  view.width = pixels(pictureWidth_);
-  view.height = pixels(pictureHeight_);
+  picturePixelsPerPoint_ = pixelsPerPoint_;
+  if (!options_.fixedWidth) {
+    view.width = allowed(pictureWidth_ * pixelsPerPoint_);
+    view.height = allowed(pictureHeight_ * pixelsPerPoint_);
+    return;
+  }
+  // As many pixels as asked for: each as a whole number of the window's where there is room, else all shrunk.
+  view.width = allowed(*options_.fixedWidth);
+  view.height = allowed(*options_.fixedHeight);
+  const double fits = pixelsPerPoint_ * std::min(pictureWidth_ / view.width, pictureHeight_ / view.height);
+  picturePixelsPerPoint_ /= fits < 1.0 ? fits : std::floor(fits);
+  pictureWidth_ = view.width / picturePixelsPerPoint_;
+  pictureHeight_ = view.height / picturePixelsPerPoint_;
 }
 
 Picture::Wanted App::wantedOf(const std::string& technique) const {
@@ -72,8 +78,7 @@ void App::showPictures() {
   technique_ = view.technique;
   if (picture_->revision() != before) {
     ++drawn_;
-    if (state_.measures && !picture_->isTimedByPass())
-      times_.add(picture_->facts().cpuMs, picture_->facts().totalMs);
+    measuresFrame_ = state_.measures && !picture_->isTimedByPass();
   }
   if (!state_.measures) times_.clear();
   if (!status) return backToLastGood(status);
@@ -189,7 +194,7 @@ void App::drawSides() {
 void App::drawLights() {
   ImDrawList& list = *ImGui::GetBackgroundDrawList();
   const ScreenSpace space = screen();
-  const auto point = [&](const glm::dvec2& pixel) { return vec(pixel / pixelsPerPoint_); };
+  const auto point = [&](const glm::dvec2& pixel) { return vec(pixel / picturePixelsPerPoint_); };
   const auto line = [&](const glm::dvec3& a, const glm::dvec3& b, ImU32 color, double width) {
     if (const auto segment = space.lineFromWorld(a, b))
       list.AddLine(point(segment->a), point(segment->b), color, static_cast<float>(width * scale_));
@@ -209,7 +214,7 @@ void App::drawLights() {
   for (const Handle& handle : handles) {
     const std::string name = "handle/" + std::to_string(handle.light + 1) + "/";
     constexpr const char* kNames[] = {"center", "aim", "sizeU", "sizeV"};
-    const glm::dvec2 place = handle.pixel / pixelsPerPoint_;
+    const glm::dvec2 place = handle.pixel / picturePixelsPerPoint_;
     if (!isOnPicture(place)) continue;
     if (handle.kind == HandleKind::aim)
       line(state_.view.lights[handle.light].centerWorld, handle.placeWorld, IM_COL32(255, 230, 120, 140),

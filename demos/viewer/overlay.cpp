@@ -35,23 +35,27 @@ precision highp float;
 precision mediump float;
 #endif
 uniform highp sampler2D u_image;
-uniform float u_shown;
 varying highp vec2 v_texcoord;
 varying lowp vec4 v_color;
 void main() {
   vec4 texel = texture2D(u_image, v_texcoord);
-  if (u_shown > 4.5) texel = vec4(vec3(dot(texel.rgb, vec3(65536.0, 256.0, 1.0) * (255.0 / 16777215.0))), 1.0);
-  else if (u_shown > 3.5) texel = vec4(vec3(dot(texel.rg, vec2(256.0, 1.0) * (255.0 / 65280.0))), 1.0);
-  else if (u_shown > 2.5) texel = vec4(texel.aaa, 1.0);
-  else if (u_shown > 1.5) texel = vec4(texel.rrr, 1.0);
-  else if (u_shown > 0.5) texel.a = 1.0;
-  gl_FragColor = v_color * texel;
+  gl_FragColor = v_color * SHOWN;
 }
 )";
 
+/// What a texel becomes, in the order of Shown.
+const char* const kShown[] = {
+    "texel",
+    "vec4(texel.rgb, 1.0)",
+    "vec4(texel.rrr, 1.0)",
+    "vec4(texel.aaa, 1.0)",
+    "vec4(vec3(dot(texel.rg, vec2(256.0, 1.0) * (255.0 / 65280.0))), 1.0)",
+    "vec4(vec3(dot(texel.rgb, vec3(65536.0, 256.0, 1.0) * (255.0 / 16777215.0))), 1.0)"};
+
 /// Fragments without highp cannot name it in a varying either.
-std::string fragmentFor(bool highp) {
+std::string fragmentFor(std::size_t shown, bool highp) {
   std::string source = kFragment;
+  source.replace(source.find("SHOWN"), 5, kShown[shown]);
   if (highp) return source;
   for (std::size_t at; (at = source.find("highp ")) != std::string::npos;) source.replace(at, 6, "mediump ");
   return source;
@@ -79,11 +83,14 @@ bool hasHighp() {
   return precision > 0;
 }
 
-Result<GLuint> link() {
+Result<GLuint> link(std::size_t shown) {
   const auto vertex = shader(GL_VERTEX_SHADER, kVertex);
   if (!vertex) return vertex.error();
-  const auto fragment = shader(GL_FRAGMENT_SHADER, fragmentFor(hasHighp()));
-  if (!fragment) return fragment.error();
+  const auto fragment = shader(GL_FRAGMENT_SHADER, fragmentFor(shown, hasHighp()));
+  if (!fragment) {
+    glDeleteShader(*vertex);
+    return fragment.error();
+  }
   const GLuint program = glCreateProgram();
   glAttachShader(program, *vertex);
   glAttachShader(program, *fragment);
@@ -125,13 +132,14 @@ void OwnTexture::upload(int width, int height, const std::uint8_t* rgba) {
 }
 
 Result<std::unique_ptr<Overlay>> Overlay::create() {
-  const auto program = link();
-  if (!program) return program.error();
   std::unique_ptr<Overlay> overlay(new Overlay);
-  overlay->program_ = *program;
-  overlay->clipFromWindow_ = glGetUniformLocation(*program, "u_clipFromWindow");
-  overlay->image_ = glGetUniformLocation(*program, "u_image");
-  overlay->shown_ = glGetUniformLocation(*program, "u_shown");
+  static_assert(std::size(kShown) == kShownCount);
+  for (std::size_t i = 0; i < kShownCount; ++i) {
+    const auto name = link(i);
+    if (!name) return name.error();
+    overlay->programs_[i] = {*name, glGetUniformLocation(*name, "u_clipFromWindow"),
+                             glGetUniformLocation(*name, "u_image")};
+  }
   glGenBuffers(1, &overlay->vertices_);
   glGenBuffers(1, &overlay->indices_);
   overlay->rebuildFont();
@@ -141,7 +149,7 @@ Result<std::unique_ptr<Overlay>> Overlay::create() {
 Overlay::~Overlay() {
   glDeleteBuffers(1, &vertices_);
   glDeleteBuffers(1, &indices_);
-  glDeleteProgram(program_);
+  for (const Program& program : programs_) glDeleteProgram(program.name);
 }
 
 void Overlay::rebuildFont() {
@@ -153,7 +161,7 @@ void Overlay::rebuildFont() {
   fonts.SetTexID(imageId(font_.name(), Shown::blended));
 }
 
-void Overlay::bindStates(const ImDrawData& data, int width, int height) {
+void Overlay::bindStates(int width, int height) {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glViewport(0, 0, width, height);
   for (const GLenum off : {GL_DEPTH_TEST, GL_STENCIL_TEST, GL_CULL_FACE, GL_POLYGON_OFFSET_FILL,
@@ -164,13 +172,8 @@ void Overlay::bindStates(const ImDrawData& data, int width, int height) {
   glClearColor(0.06f, 0.06f, 0.07f, 1.0f);
   glClear(GL_COLOR_BUFFER_BIT);
   glEnable(GL_SCISSOR_TEST);
-  glEnable(GL_BLEND);
   glBlendEquation(GL_FUNC_ADD);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glUseProgram(program_);
-  const float x = 2.0f / data.DisplaySize.x, y = -2.0f / data.DisplaySize.y;
-  glUniform4f(clipFromWindow_, x, y, -1.0f - data.DisplayPos.x * x, 1.0f - data.DisplayPos.y * y);
-  glUniform1i(image_, 0);
   glActiveTexture(GL_TEXTURE0);
   glBindBuffer(GL_ARRAY_BUFFER, vertices_);
   glBindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices_);
@@ -182,10 +185,25 @@ void Overlay::bindStates(const ImDrawData& data, int width, int height) {
   glVertexAttribPointer(kColor, 4, GL_UNSIGNED_BYTE, GL_TRUE, kStride, at(offsetof(ImDrawVert, col)));
 }
 
+void Overlay::use(const ImDrawData& data, Shown how) {
+  const Program& program = programs_[static_cast<std::size_t>(how)];
+  glUseProgram(program.name);
+  const float x = 2.0f / data.DisplaySize.x, y = -2.0f / data.DisplaySize.y;
+  glUniform4f(program.clipFromWindow, x, y, -1.0f - data.DisplayPos.x * x, 1.0f - data.DisplayPos.y * y);
+  glUniform1i(program.image, 0);
+  // Whole pictures need none, and on a software driver it takes as long as they do.
+  if (how == Shown::blended) {
+    glEnable(GL_BLEND);
+  } else {
+    glDisable(GL_BLEND);
+  }
+}
+
 void Overlay::drawList(const ImDrawData& data, const ImDrawList& list, int height) {
   static_assert(sizeof(ImDrawIdx) == 2, "ES 2.0 draws indices of 16 bits");
   glBufferData(GL_ARRAY_BUFFER, list.VtxBuffer.size_in_bytes(), list.VtxBuffer.Data, GL_STREAM_DRAW);
   glBufferData(GL_ELEMENT_ARRAY_BUFFER, list.IdxBuffer.size_in_bytes(), list.IdxBuffer.Data, GL_STREAM_DRAW);
+  std::optional<Shown> used;
   for (const ImDrawCmd& command : list.CmdBuffer) {
     const ImVec2 scale = data.FramebufferScale, origin = data.DisplayPos;
     const int left = static_cast<int>((command.ClipRect.x - origin.x) * scale.x);
@@ -196,7 +214,9 @@ void Overlay::drawList(const ImDrawData& data, const ImDrawList& list, int heigh
     glScissor(left, height - bottom, right - left, bottom - top);
     const auto bits = reinterpret_cast<std::uintptr_t>(command.GetTexID());
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bits & 0xffffffffu));
-    glUniform1f(shown_, static_cast<float>(static_cast<std::uint64_t>(bits) >> 32));
+    const auto how = static_cast<Shown>(static_cast<std::uint64_t>(bits) >> 32);
+    if (how != used) use(data, how);
+    used = how;
     glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(command.ElemCount), GL_UNSIGNED_SHORT,
                    reinterpret_cast<const void*>(command.IdxOffset * sizeof(ImDrawIdx)));
   }
@@ -206,7 +226,7 @@ void Overlay::draw(const ImDrawData& data) {
   const int width = static_cast<int>(data.DisplaySize.x * data.FramebufferScale.x);
   const int height = static_cast<int>(data.DisplaySize.y * data.FramebufferScale.y);
   if (width <= 0 || height <= 0) return;
-  bindStates(data, width, height);
+  bindStates(width, height);
   for (int i = 0; i < data.CmdListsCount; ++i) drawList(data, *data.CmdLists[i], height);
   for (const GLuint place : {kPosition, kTexcoord, kColor}) glDisableVertexAttribArray(place);
   glDisable(GL_SCISSOR_TEST);

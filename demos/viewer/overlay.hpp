@@ -6,6 +6,7 @@
 
 #include <imgui.h>
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -24,6 +25,8 @@ enum class Shown : std::uint32_t {
   word,      ///< first two channels, high byte first, as grey: Output::visibility16
   packed24,  ///< first three channels, highest first, as grey
 };
+inline constexpr std::size_t kShownCount = 6;
+/// Only what is `blended` may be seen through: the others cover what they lie on.
 ImTextureID imageId(std::uint32_t texture, Shown how);
 
 /// A texture of the viewer's own.
@@ -54,10 +57,16 @@ class Overlay {
 
  private:
   Overlay() = default;
-  void bindStates(const ImDrawData& data, int width, int height);
+  void bindStates(int width, int height);
   void drawList(const ImDrawData& data, const ImDrawList& list, int height);
-  std::uint32_t program_ = 0, vertices_ = 0, indices_ = 0;
-  int clipFromWindow_ = -1, image_ = -1, shown_ = -1;
+  void use(const ImDrawData& data, Shown how);
+
+  struct Program {
+    std::uint32_t name = 0;
+    int clipFromWindow = -1, image = -1;
+  };
+  std::array<Program, kShownCount> programs_{};
+  std::uint32_t vertices_ = 0, indices_ = 0;
   OwnTexture font_;
 };
 
