@@ -221,7 +221,6 @@ Status App::frame() {
     onEvent(event);
   }
   if (window_->isMinimised() || window_->framebufferSize().width == 0) return {};
-  controls_.beginFrame();
   beginUi(std::max(seconds, 1e-4));
   layOut();
   advance(seconds);
@@ -231,6 +230,7 @@ Status App::frame() {
   updateTruth();
   updateHeatMap();
   drawPicture();
+  controls_.endFrame();
   ImGui::Render();
   overlay_->draw(*ImGui::GetDrawData());
   glErrors_ += takeGlErrors();

@@ -20,7 +20,7 @@ void Controls::mark(std::string name) {
   }
 }
 
-void Controls::beginFrame() {
+void Controls::endFrame() {
   last_ = std::move(drawn_);
   drawn_.clear();
 }

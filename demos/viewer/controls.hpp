@@ -19,7 +19,8 @@ class Controls {
   void mark(std::string name);
   /// Names a place of the picture.
   void markPlace(const std::string& name, const Place& place) { drawn_[name] = place; }
-  void beginFrame();
+  /// When all of a frame was named: find() answers by it from then on.
+  void endFrame();
   /// Of the last frame. What lies outside of its window is scrolled to, and found in a later frame.
   std::optional<Place> find(const std::string& name);
   std::vector<std::string> names() const;

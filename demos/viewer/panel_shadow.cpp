@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <cstdlib>
 
+#include "viewer/error_map.hpp"
 #include "viewer/panels.hpp"
 
 namespace halfshadow::viewer {
@@ -108,6 +109,28 @@ void techniqueList(PanelInput& in, const char* label, const std::string& name, s
   ImGui::EndCombo();
 }
 
+/// What the map's colours mean.
+void errorScale(double full) {
+  constexpr int kSteps = 64;
+  const float width = ImGui::GetContentRegionAvail().x, height = ImGui::GetFontSize();
+  const ImVec2 corner = ImGui::GetCursorScreenPos();
+  for (int i = 0; i < kSteps; ++i) {
+    const double share = (i + 0.5) / kSteps;
+    const Colour colour = errorColour((2.0 * share - 1.0) * full, full);
+    const float left = corner.x + width * static_cast<float>(i) / kSteps;
+    ImGui::GetWindowDrawList()->AddRectFilled({left, corner.y},
+                                              {left + width / kSteps + 1, corner.y + height},
+                                              IM_COL32(colour.r, colour.g, colour.b, 255));
+  }
+  ImGui::Dummy({width, height});
+  char low[32], high[32];
+  std::snprintf(low, sizeof low, "-%.3g too dark", full);
+  std::snprintf(high, sizeof high, "too bright +%.3g", full);
+  ImGui::TextDisabled("%s", low);
+  ImGui::SameLine(width - ImGui::CalcTextSize(high).x);
+  ImGui::TextDisabled("%s", high);
+}
+
 void about(const std::vector<TechniqueChoice>& techniques, const std::string& id) {
   const auto found = std::ranges::find(techniques, id, &TechniqueChoice::id);
   if (found == techniques.end()) return;
@@ -165,7 +188,7 @@ void comparePanel(PanelInput& in) {
     if (ImGui::SliderFloat("full scale", &full, 0.005f, 1.0f, "%.3f", ImGuiSliderFlags_Logarithmic))
       state.heatFull = static_cast<double>(full);
     in.controls.mark("heat-scale");
-    help("Red and yellow: too bright; blue and cyan: too dark; black: no error.");
+    errorScale(state.heatFull);
   }
   if (in.error) {
     ImGui::Text("RMSE %.4f   p99 %.4f   bias %+.4f", in.error->rmse, in.error->p99, in.error->bias);
