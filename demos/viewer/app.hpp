@@ -62,6 +62,7 @@ class App final : public Stage {
   // Scenes and requests (app_requests.cpp).
   Status open(const std::string& source);
   void tell(const Status& status, const std::string& news = {});
+  void listAnimations(const std::string& source);
   void reload();
   void reloadIfChanged();
   void doRequests();

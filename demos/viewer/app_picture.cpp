@@ -15,6 +15,16 @@ ImVec2 vec(const glm::dvec2& v) {
   return {static_cast<float>(v.x), static_cast<float>(v.y)};
 }
 
+/// Text on a dark ground, readable on any picture.
+void labelled(ImDrawList& list, ImVec2 at, ImU32 color, const char* text) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const float margin = 0.25f * ImGui::GetFontSize();
+  list.AddRectFilled({at.x - margin, at.y - 0.3f * margin},
+                     {at.x + size.x + margin, at.y + size.y + 0.3f * margin}, IM_COL32(10, 10, 12, 170),
+                     margin);
+  list.AddText(at, color, text);
+}
+
 Shown shownOf(Output output) {
   if (output == Output::shaded) return Shown::opaque;
   return output == Output::visibility16 ? Shown::word : Shown::red;
@@ -184,8 +194,7 @@ void App::drawSides() {
                                 : state_.otherTechnique;
   const float gap = ImGui::GetFontSize() * 0.5f, y = height - 2 * ImGui::GetFontSize();
   const auto label = [&](const std::string& text, float at) {
-    list.AddText({at + 1, y + 1}, IM_COL32(0, 0, 0, 255), text.c_str());
-    list.AddText({at, y}, IM_COL32(255, 220, 140, 255), text.c_str());
+    labelled(list, {at, y}, IM_COL32(255, 220, 140, 255), text.c_str());
   };
   label(left, x - gap - ImGui::CalcTextSize(left.c_str()).x);
   label(right, x + gap);
@@ -294,12 +303,9 @@ void App::drawStatus() {
   std::snprintf(text, sizeof text, "%s   %dx%d   %.1f ms CPU   ? keys", view.technique.c_str(), view.width,
                 view.height, picture_->facts().cpuMs);
   const float font = ImGui::GetFontSize();
-  list.AddText({0.6f * font + 1, 0.5f * font + 1}, IM_COL32(0, 0, 0, 255), text);
-  list.AddText({0.6f * font, 0.5f * font}, IM_COL32(230, 230, 230, 255), text);
-  if (!state_.news.empty()) {
-    list.AddText({0.6f * font + 1, 1.8f * font + 1}, IM_COL32(0, 0, 0, 255), state_.news.c_str());
-    list.AddText({0.6f * font, 1.8f * font}, IM_COL32(160, 230, 160, 255), state_.news.c_str());
-  }
+  labelled(list, {0.6f * font, 0.5f * font}, IM_COL32(230, 230, 230, 255), text);
+  if (!state_.news.empty())
+    labelled(list, {0.6f * font, 1.9f * font}, IM_COL32(160, 230, 160, 255), state_.news.c_str());
   if (state_.message.empty()) return;
   ImGui::SetNextWindowPos({0.6f * font, 3.2f * font});
   ImGui::SetNextWindowSize({std::min(static_cast<float>(pictureWidth_) - 1.2f * font, 42 * font), 0});

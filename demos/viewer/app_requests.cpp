@@ -50,10 +50,7 @@ Status App::open(const std::string& source) {
   view.source = source;
   if (isAnother && view.scene) view.animationSeconds = 0.0, view.animationIndex = 0;
   if (Status status = openScene(view, Keep::nothing); !status) return status;
-  state_.animations.clear();
-  if (isFile(source)) {
-    if (auto animations = scenes::gltfAnimations(source)) state_.animations = std::move(animations).value();
-  }
+  listAnimations(source);
   fileTime_ = isFile(source) ? timeOf(source) : std::filesystem::file_time_type{};
   state_.view = std::move(view);
   state_.homeCamera = state_.view.camera;
@@ -67,12 +64,19 @@ Status App::open(const std::string& source) {
   return {};
 }
 
+void App::listAnimations(const std::string& source) {
+  state_.animations.clear();
+  if (!isFile(source)) return;
+  if (auto animations = scenes::gltfAnimations(source)) state_.animations = std::move(animations).value();
+}
+
 void App::reload() {
   // Camera and lights stay where hands put them: only what the file holds is read again.
   View view = state_.view;
   const Status status = openScene(view, Keep::cameraAndLights);
   if (status) {
     state_.view = std::move(view);
+    listAnimations(state_.view.source);
     state_.message.clear();
     ++reloads_;
   }

@@ -97,9 +97,32 @@ void lightNumbers(PanelInput& in) {
   namedCheckbox(in, "Handles in the picture", "light/handles", in.state.showsHandles);
 }
 
+void animationList(PanelInput& in) {
+  UiState& state = in.state;
+  if (state.animations.size() < 2) return;
+  int& index = state.view.animationIndex;
+  const std::string now = index < 0 ? "rest pose" : state.animations[static_cast<std::size_t>(index)].name;
+  ImGui::SetNextItemWidth(-1);
+  const bool isOpen = ImGui::BeginCombo("##animation", now.c_str());
+  in.controls.mark("animation");
+  if (!isOpen) return;
+  for (int i = 0; i < static_cast<int>(state.animations.size()); ++i) {
+    ImGui::PushID(i);  // names may repeat
+    if (ImGui::Selectable(state.animations[static_cast<std::size_t>(i)].name.c_str(), i == index)) {
+      index = i;
+      state.view.animationSeconds = 0.0;
+      in.requests.repose = true;
+    }
+    ImGui::PopID();
+    in.controls.mark("animation/" + std::to_string(i));
+  }
+  ImGui::EndCombo();
+}
+
 void motion(PanelInput& in) {
   UiState& state = in.state;
   if (!state.animations.empty()) {
+    animationList(in);
     const scenes::AnimationInfo& info =
         state.animations[static_cast<std::size_t>(std::max(state.view.animationIndex, 0))];
     if (namedButton(in, state.playing ? "Pause" : "Play", "animation/play")) {

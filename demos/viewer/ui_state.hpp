@@ -44,7 +44,6 @@ struct UiState {
   bool playing = false;  ///< the file's animation
   std::vector<scenes::AnimationInfo> animations;
   PathRun path = PathRun::off;
-  double pathSeconds = 0.0;
 
   std::string message;     ///< an error, until the next thing that works
   std::string news;        ///< what was done

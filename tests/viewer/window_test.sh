@@ -162,6 +162,19 @@ JSON
     same kept
     cmp -s dropped.png kept.png || fail "a broken file changed the picture"
     [[ $(fact scene) == "a solid.gltf" ]] || fail "the last good scene was not kept: $(fact scene)"
+    # Two animations: the first begins at the file's place, the second one higher.
+    key() { printf '{"bufferView": 2, "byteOffset": %s, "componentType": 5126, "count": 2, "type": "%s", "min": %s, "max": %s}' "$@"; }
+    moves() { printf '{"name": "%s", "channels": [{"sampler": 0, "target": {"node": 0, "path": "translation"}}], "samplers": [{"input": 2, "output": %s}]}' "$@"; }
+    more=$(printf '%b' '\0\0\0\0\0\0\0200\0077\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0\0200\0077\0\0\0\0\0\0\0\0\0\0\0200\0077\0\0\0\0' | base64 -w 0)
+    solid 1 | sed -e "s#$data#$data$more#" -e 's/"byteLength": 72/"byteLength": 116/' -e 's/"byteLength": 24}]/"byteLength": 24}, {"buffer": 0, "byteOffset": 72, "byteLength": 44}]/' \
+      -e "s/\"type\": \"SCALAR\"}]/\"type\": \"SCALAR\"}, $(key 0 SCALAR '[0]' '[1]'), $(key 8 VEC3 '[0, 0, 0]' '[0, 1, 0]'), $(key 20 VEC3 '[0, 1, 0]' '[0, 1, 0]')],/" \
+      -e "s/],}\$/], \"animations\": [$(moves lift 3), $(moves high 4)]}/" >moving.gltf
+    { keep low && echo "click tab/Scene" && echo "click animation" && echo "click animation/1" && keep high; } >script
+    play moving.gltf
+    same low
+    same high
+    grep -q -- "--animation 1" high.txt || fail "the second animation was not chosen: $(cat high.txt)"
+    cmp -s low.png high.png && fail "the second animation shows nothing else"
     # Changed while it is shown.
     { echo "wait 3" && echo "picture before.png" && echo "until reloads 1 9" && keep after; } >script
     (
