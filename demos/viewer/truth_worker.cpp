@@ -3,9 +3,7 @@
 #include "viewer/truth_worker.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include "reference/reference.hpp"
 
@@ -13,20 +11,6 @@ namespace halfshadow::viewer {
 namespace {
 /// Of the first image; each further one has four times as many.
 constexpr int kFirstSamples = 4;
-
-/// Pixels a call, so that a question that has gone stale is left within about this time.
-class ChunkSize {
- public:
-  std::size_t pixels() const { return pixels_; }
-  void took(std::chrono::steady_clock::duration time) {
-    using namespace std::chrono_literals;
-    if (time < 50ms) pixels_ *= 2;
-    if (time > 200ms && pixels_ > 256) pixels_ /= 2;
-  }
-
- private:
-  std::size_t pixels_ = 8192;
-};
 
 double noiseOf(const TruthImage& image) {
   double sum = 0.0;
@@ -111,36 +95,26 @@ void TruthWorker::trace(const View& view, std::uint64_t question) {
   const scene::AreaLight& light = view.lights.front();
   const auto receivers = reference::traceReceivers(*view.scene, view.camera, light, view.width, view.height);
   if (!receivers) return fail(question, receivers.error().message);
-  std::vector<std::uint32_t> pixels(receivers->kind.size());
-  std::iota(pixels.begin(), pixels.end(), 0u);
   TruthImage sum{.width = view.width, .height = view.height, .kind = receivers->kind};
-  sum.visibility.assign(pixels.size(), 0.0f);
+  sum.visibility.assign(receivers->kind.size(), 0.0f);
   reference::ReferenceOptions options{
       .samples = kFirstSamples,
       .threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1)};
-  ChunkSize chunk;
+  options.isCancelled = [&] { return isStale(question); };
   while (sum.samples < samples_) {
-    const int samples = reference::tracedSamples(std::min(options.samples, samples_ - sum.samples));
-    for (std::size_t first = 0; first < pixels.size();) {
-      if (isStale(question)) return;
-      const std::size_t count = std::min(chunk.pixels(), pixels.size() - first);
-      const auto begin = std::chrono::steady_clock::now();
-      const auto part = reference::tracePixels(*view.scene, light, *receivers,
-                                               std::span(pixels).subspan(first, count), options);
-      if (!part) return fail(question, part.error().message);
-      const float share = static_cast<float>(samples) / static_cast<float>(sum.samples + samples);
-      for (std::size_t i = 0; i < count; ++i) {
-        float& mean = sum.visibility[first + i];
-        mean += ((*part)[i] - mean) * share;
-      }
-      first += count;
-      chunk.took(std::chrono::steady_clock::now() - begin);
+    options.samples = std::min(options.samples, samples_ - sum.samples);
+    const int samples = reference::tracedSamples(options.samples);
+    options.progress = [&](double share) {
       const std::lock_guard lock(mutex_);
-      if (isStale(question)) return;
-      state_.share =
-          (sum.samples + samples * static_cast<double>(first) / static_cast<double>(pixels.size())) /
-          samples_;
-    }
+      if (!isStale(question)) state_.share = (sum.samples + samples * share) / samples_;
+    };
+    // One call a round: each sorts the whole scene anew, which for a large one takes longer than its rays.
+    const auto round = reference::traceVisibility(*view.scene, light, *receivers, options);
+    if (!round) return fail(question, round.error().message);
+    if (isStale(question)) return;
+    const float share = static_cast<float>(samples) / static_cast<float>(sum.samples + samples);
+    for (std::size_t i = 0; i < sum.visibility.size(); ++i)
+      sum.visibility[i] += ((*round)[i] - sum.visibility[i]) * share;
     sum.samples += samples;
     sum.noiseAtMost = noiseOf(sum);
     {
@@ -151,7 +125,7 @@ void TruthWorker::trace(const View& view, std::uint64_t question) {
     }
     wake_();
     ++options.seed;
-    options.samples = std::min(4 * options.samples, std::max(1, samples_ - sum.samples));
+    options.samples *= 4;
   }
 }
 

@@ -135,6 +135,7 @@ void traceInThreads(const VisibilityTracer& tracer, const ReceiverImage& receive
   std::atomic<std::size_t> next{0};
   const auto work = [&](const std::function<void(double)>& progress) {
     for (;;) {
+      if (options.isCancelled && options.isCancelled()) return;
       const std::size_t first = next.fetch_add(kPixelsPerChunk);
       if (first >= pixelIndices.size()) return;
       const std::size_t end = std::min(first + kPixelsPerChunk, pixelIndices.size());

@@ -52,6 +52,9 @@ struct ReferenceOptions {
   double originLiftWorld = 0.0;
   /// Share done, 0 … 1; called by the calling thread only; may be empty.
   std::function<void(double)> progress;
+  /// Asked by every thread before each few pixels; once it says true, the others keep the value 1. May be
+  /// empty.
+  std::function<bool()> isCancelled;
 };
 
 /// The number of light points that a request leads to: n × m strata with n = ceil(sqrt(samples)) and

@@ -190,6 +190,26 @@ TEST(Receivers, SurfacesTurnedFromTheLightAreNone) {
   }
 }
 
+TEST(Reference, CancelledItStopsAndWhatItTracedIsRight) {
+  const scene::SceneDescription scene = plateScene();
+  const ReceiverImage receivers = groundGrid(64);
+  reference::ReferenceOptions options{.samples = 16, .threads = 1};
+  const auto whole = reference::traceVisibility(scene, kLight, receivers, options);
+  ASSERT_TRUE(whole.ok());
+  int asked = 0;
+  options.isCancelled = [&] { return ++asked > 70; };
+  const auto part = reference::traceVisibility(scene, kLight, receivers, options);
+  ASSERT_TRUE(part.ok());
+  EXPECT_EQ(asked, 71) << "nothing is done once it was cancelled";
+  std::size_t same = 0, left = 0;
+  for (std::size_t i = 0; i < whole->size(); ++i) {
+    same += (*part)[i] == (*whole)[i] ? 1 : 0;
+    left += (*part)[i] != (*whole)[i] && (*part)[i] == 1.0f ? 1 : 0;
+  }
+  EXPECT_EQ(same + left, whole->size());
+  EXPECT_GT(left, 0u);
+}
+
 TEST(Reference, WrongArgumentsAreRefusedWithASentence) {
   const scene::SceneDescription scene = plateScene();
   const ReceiverImage receivers = groundGrid(4);
