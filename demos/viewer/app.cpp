@@ -148,6 +148,8 @@ Status App::startUi() {
   scale_ = options_.scale > 0.0 ? options_.scale : window_->contentScale();
   loadFont(static_cast<float>(14.0 * scale_));
   ImGui::StyleColorsDark();
+  ImGui::GetStyle().AntiAliasedLinesUseTex =
+      false;  // the font's image is not filtered: upright lines had kinks
   ImGui::GetStyle().ScaleAllSizes(static_cast<float>(scale_));
   auto overlay = Overlay::create();
   if (!overlay) return overlay.error();
