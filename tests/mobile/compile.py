@@ -7,7 +7,8 @@
 
 PATH: the program mobile_programs (default: build/bin/mobile_programs beside this repository's sources). DIR: a folder in
 which compilers of these GPUs were built from Mesa under its drm-shim, with compile_on_gpus.py in it (default: the
-environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings are compiled;
+environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings, or with the
+choices of the device profile that limits.json names for it, are compiled;
 those that its driver would leave out are left out under the engine as well, whose fallbacks are then compiled, until
 nothing is dropped. Prints counts per technique and path, and of some programs with loops what
 a fragment executes, and checks them against limits.json beside this file.
@@ -23,7 +24,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 NOTE = ("Compiled, not measured, by Mesa's open compilers, of one receiver pixel with 8-bit visibility at default settings and "
-        "with the GPU's own fallbacks. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; Mali-T: bundles, "
+        "with the GPU's own fallbacks, of Mali-4xx with the choices of its device profile. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; Mali-T: bundles, "
         "registers, threads; Mali-G: instructions, cycles, threads; Adreno 2xx: alu + tex, registers; other Adreno: "
         "instructions, full/half registers, waves; Vivante: instructions, registers. L: loops, of which one turn is counted; "
         "S: spills and fills.")
