@@ -4,6 +4,7 @@
 // First level (HS_FROM_DEPTH): reads the depth map; further levels read this shader's own output. HS_MAPS: over as many
 // maps, which stand in rows of HS_TILES.
 #include "map/depth_storage.glsl"
+#include "map/wider_bounds.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
 uniform HS_HIGHP vec4 u_sourceSize;  // x: texels per side, y: 1 / x, z: blocks per side
@@ -18,9 +19,7 @@ vec4 hs_bounds(HS_HIGHP vec4 stored) {
 #endif
 }
 #define HS_Bounds vec4
-HS_Bounds hs_merge(HS_Bounds a, HS_Bounds b) {
-  return vec4(mix(a.xy, b.xy, hs_less(b.xy, a.xy)), mix(a.zw, b.zw, hs_less(a.zw, b.zw)));
-}
+HS_Bounds hs_merge(HS_Bounds a, HS_Bounds b) { return hs_wider(a, b); }
 vec4 hs_packBounds(HS_Bounds b) { return b; }
 #else
 #define HS_Bounds HS_HIGHP vec2

@@ -3,17 +3,13 @@
 // Bounds over blocks of HS_CELL x HS_CELL source texels and their neighbours up to HS_REACH_S and HS_REACH_T blocks
 // away: afterwards one block covers every tap of a kernel whose radius is at most that many blocks, wherever in the
 // block the receiver falls.
+#include "map/wider_bounds.glsl"
 varying HS_HIGHP vec2 v_uv;
 uniform HS_HIGHP sampler2D u_source;
 uniform HS_HIGHP vec4 u_sourceRect;   // xy: first texel that is read, z: texels per side, w: blocks per side
 uniform HS_HIGHP vec4 u_sourceScale;  // xy: 1 / size of the source in texels
 #define HS_WIDTH ((2 * HS_REACH_S + 1) * HS_CELL)
 #define HS_HEIGHT ((2 * HS_REACH_T + 1) * HS_CELL)
-
-float hs_lexicographicLess(vec2 a, vec2 b) {
-  vec2 order = sign(b - a);
-  return step(0.5, 2.0 * order.x + order.y);
-}
 
 vec4 hs_bytes(HS_HIGHP vec2 texel) {
   HS_HIGHP vec2 inside = clamp(texel, vec2(0.0), vec2(u_sourceRect.z - 1.0));
@@ -29,9 +25,7 @@ void main() {
     offset.x += 1.0;
     float wrapped = step(float(HS_WIDTH) - 0.5, offset.x);
     offset += wrapped * vec2(-float(HS_WIDTH), 1.0);
-    vec4 other = hs_bytes(first + offset);
-    result.xy = mix(result.xy, other.xy, hs_lexicographicLess(other.xy, result.xy));
-    result.zw = mix(result.zw, other.zw, hs_lexicographicLess(result.zw, other.zw));
+    result = hs_wider(result, hs_bytes(first + offset));
   }
   gl_FragColor = (result + 0.25) / 255.0;
 }

@@ -4,6 +4,7 @@
 // Based on: Fernando, "Percentage-Closer Soft Shadows", 2005 (blocker search).
 // Needs spread_places.glsl and spread_taps.glsl.
 
+#ifndef HS_FEW_REGISTERS
 // asked: sides in texels; side x side taps. Returns x: share of taps that block, y: mean distance in depth from blocker
 // to receiver.
 HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
@@ -27,6 +28,7 @@ HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   }
   return vec2(found.x / count, -found.y / max(found.x, 1.0));
 }
+#endif
 
 // The same over what could hold blockers, and again over what the blockers found ask for as long as that is much less: a
 // nearer caster at the rim makes the region wide without being in the way, and so does the upper part of a wall at

@@ -16,11 +16,6 @@ float hs_depthValue(HS_HIGHP vec4 stored) {
   vec2 bytes = floor(stored.rg * 255.0 + 0.5);
   return bytes.x + bytes.y * (1.0 / 256.0);
 }
-// Order of two stored depths, exact: the high byte decides unless equal.
-float hs_less(vec2 a, vec2 b) {
-  vec2 order = sign(b - a);
-  return step(0.5, 2.0 * order.x + order.y);
-}
 #else
 #define HS_Depth HS_HIGHP float
 #ifdef HS_DEPTH_PACKED24

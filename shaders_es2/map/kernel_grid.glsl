@@ -16,12 +16,13 @@
 HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) {
   return planeFirst + hs_gradient.x * vec4(0.0, 1.0, 2.0, 3.0);
 }
-float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
+// Tap by tap: one sum of a row keeps all its fetches, more than some devices have registers for.
+void hs_addRow(inout float lit, HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
   vec4 least = min(plane, 0.0) - bias;
-  return step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver)) +
-         step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver)) +
-         step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver)) +
-         step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
+  lit += step(least.x, hs_gap(texture2D(u_depthMap, uv), hs_receiver));
+  lit += step(least.y, hs_gap(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)), hs_receiver));
+  lit += step(least.z, hs_gap(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)), hs_receiver));
+  lit += step(least.w, hs_gap(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0)), hs_receiver));
 }
 #else
 // The receiver's depth is added to what texels are compared with, once, not taken from each of them.
@@ -29,13 +30,13 @@ float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
 HS_RowPlane hs_firstRow(HS_HIGHP float planeFirst, HS_HIGHP float bias) {
   return planeFirst + (hs_receiver - bias);
 }
-float hs_litRow(HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
+void hs_addRow(inout float lit, HS_HIGHP vec2 uv, HS_RowPlane plane, HS_HIGHP float bias) {
   HS_HIGHP float least = hs_receiver - bias;
   HS_HIGHP vec3 next = plane + hs_gradient.x * vec3(1.0, 2.0, 3.0);
-  return step(min(plane, least), hs_depthValue(texture2D(u_depthMap, uv))) +
-         step(min(next.x, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0)))) +
-         step(min(next.y, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0)))) +
-         step(min(next.z, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
+  lit += step(min(plane, least), hs_depthValue(texture2D(u_depthMap, uv)));
+  lit += step(min(next.x, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(u_map.y, 0.0))));
+  lit += step(min(next.y, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(2.0 * u_map.y, 0.0))));
+  lit += step(min(next.z, least), hs_depthValue(texture2D(u_depthMap, uv + vec2(3.0 * u_map.y, 0.0))));
 }
 #endif
 #endif
@@ -57,7 +58,7 @@ float hs_pcfGrid() {
   HS_HIGHP vec2 uv = first * u_map.y;
   HS_RowPlane plane = hs_firstRow(planeFirst, bias);
   for (int y = 0; y < 4; ++y) {
-    lit += hs_litRow(uv, plane, bias);
+    hs_addRow(lit, uv, plane, bias);
     HS_COUNT(4);
     uv.y += u_map.y;
     plane += hs_gradient.y;
@@ -93,7 +94,7 @@ float hs_pcfGridBounded(float count) {
   HS_RowPlane plane = hs_firstRow(planeFirst, bias);
   for (int y = 0; y < 4; ++y) {
     if (float(4 * y) >= count) break;
-    lit += hs_litRow(uv, plane, bias);
+    hs_addRow(lit, uv, plane, bias);
     HS_COUNT(4);
     uv.y += u_map.y;
     plane += hs_gradient.y;

@@ -3,6 +3,7 @@
 // Taps spread evenly over a rectangle of the map: side x side of them, side at most 17 and chosen per fragment. Needs
 // spread_places.glsl and spread_taps.glsl.
 
+#ifndef HS_FEW_REGISTERS
 // width: sides of the rectangle in texels.
 float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias) {
   HS_Places places = hs_firstPlaces(side);
@@ -25,6 +26,7 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
   }
   return lit / count;
 }
+#endif
 
 // The same for HS_SPREAD_KERNEL taps a side, or a texel a tap where that is less: more would read them again.
 float hs_pcfSpread(HS_HIGHP vec2 width) {

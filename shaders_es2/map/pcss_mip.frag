@@ -8,6 +8,7 @@
 #include "map/shadow_tap.glsl"
 #include "map/half_plane.glsl"
 #include "map/horizon.glsl"
+#include "map/spread_few.glsl"
 #include "map/spread_places.glsl"
 #include "map/spread_taps.glsl"
 #include "map/kernel_spread.glsl"

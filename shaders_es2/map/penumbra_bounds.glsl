@@ -31,6 +31,19 @@ HS_HIGHP vec4 hs_boundsAround(HS_HIGHP float level) {
   return floor(texture2D(u_blockMap, (origin + block + 0.5) * (vec2(2.0 / 3.0, 1.0) / u_bounds.x)) * 255.0 + 0.5);
 }
 
+// Gaps to the smallest and to the largest depth.
+HS_HIGHP vec2 hs_gapsAround(HS_HIGHP float level) {
+  HS_HIGHP vec4 bytes = hs_boundsAround(level);
+#ifdef HS_DEPTH_PACKED16
+  vec4 difference = bytes - vec4(hs_receiver, hs_receiver);
+  return vec2(difference.x + difference.y * (1.0 / 256.0), difference.z + difference.w * (1.0 / 256.0));
+#else
+  // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
+  return vec2((bytes.r * 256.0 + bytes.g) * (1.0 / 65536.0) - hs_receiver,
+              (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver);
+#endif
+}
+
 // 1: every tap is lit, 0: every tap is shadowed, -1: the filter decides. Both bounds are rounded outward.
 // Of a split light the bounds hold all maps around one place: the kernel is a sub-light's, and wider by what the
 // fragment's places in the maps are apart.
@@ -50,31 +63,25 @@ float hs_maskClass() {
   // Blocks at the border answer for what lies beyond it, where no caster is.
   HS_HIGHP vec2 fromMiddle = abs(hs_texel - 0.5 * u_map.x);
   HS_HIGHP float outside = max(fromMiddle.x, fromMiddle.y) - 0.5 * u_map.x;
-  HS_HIGHP float gapHigh = 0.0;
+#ifdef HS_SHORT
+  // The first look alone, and no loop around it: what a loop keeps would take registers.
+  HS_HIGHP float reach = halfWidth * hs_widestGap + apart;
+  HS_HIGHP vec2 gaps = hs_gapsAround(hs_boundsLevel(reach));
+  if (gaps.x >= -bias || outside >= reach) return 1.0;
+  hs_widestGap = min(hs_widestGap, -gaps.x);
+#else
+  HS_HIGHP vec2 gaps = vec2(0.0);
   HS_HIGHP float reach = 0.0;
   HS_HIGHP float asked = -1.0;
-  // HS_SHORT: the first look alone.
-#ifdef HS_SHORT
-  for (int i = 0; i < 1; ++i) {
-#else
   for (int i = 0; i < 2; ++i) {
-#endif
     reach = halfWidth * hs_widestGap + apart;
     HS_HIGHP float level = hs_boundsLevel(reach);
     if (level == asked) break;
     asked = level;
-    HS_HIGHP vec4 bytes = hs_boundsAround(level);
-#ifdef HS_DEPTH_PACKED16
-    vec4 difference = bytes - vec4(hs_receiver, hs_receiver);
-    HS_HIGHP float gapLow = difference.x + difference.y * (1.0 / 256.0);
-    gapHigh = difference.z + difference.w * (1.0 / 256.0);
-#else
-    HS_HIGHP float gapLow = (bytes.r * 256.0 + bytes.g) * (1.0 / 65536.0) - hs_receiver;
-    // The upper bound is stored as the next step above, so that 65536 steps stay 16 bits.
-    gapHigh = (bytes.b * 256.0 + bytes.a + 1.0) * (1.0 / 65536.0) - hs_receiver;
-#endif
-    if (gapLow >= -bias || outside >= reach) return 1.0;
-    hs_widestGap = min(hs_widestGap, -gapLow);
+    gaps = hs_gapsAround(level);
+    if (gaps.x >= -bias || outside >= reach) return 1.0;
+    hs_widestGap = min(hs_widestGap, -gaps.x);
   }
-  return gapHigh < -bias - slope * reach ? 0.0 : -1.0;
+#endif
+  return gaps.y < -bias - slope * reach ? 0.0 : -1.0;
 }

@@ -20,6 +20,31 @@ HS_HIGHP vec2 hs_tile;          // whose map is read: column and row
 // Levels 0 to 3 at full resolution in a square of four, then samples at an eighth of the kernel's side in a
 // column; five samples of margin around each. Level 0 lies at texel centres, the means of the others where their texels
 // meet.
+#ifdef HS_NO_HIGHP
+// Where to read a level. One after the other: both at once take twice the registers.
+HS_HIGHP vec2 hs_levelPlace(HS_HIGHP vec2 texel, float level) {
+  float coarse = max(level - 3.0, 0.0);
+  HS_HIGHP float perSample = exp2(-coarse);
+  float row = step(1.5, level), column = step(3.5, level);
+#ifdef HS_SUB_LIGHTS_U
+  HS_HIGHP vec2 full = u_tiles.zw + 11.0;
+  HS_HIGHP vec2 side = ceil(u_tiles.zw * perSample) + 11.0;
+  HS_HIGHP float far = u_tiles.w - ceil(u_tiles.w * 2.0 * perSample) + 13.0 * (coarse - 1.0);
+#else
+  HS_HIGHP vec2 full = vec2(u_occlusionLayout.x + 11.0);
+  HS_HIGHP vec2 side = vec2(u_occlusionLayout.x * perSample + 11.0);
+  HS_HIGHP float far = u_occlusionLayout.x - 2.0 * side.x + 11.0 * coarse + 11.0;
+#endif
+  HS_HIGHP float originX = mix((level - 2.0 * row) * full.x, 2.0 * full.x, column);
+  HS_HIGHP float originY = mix(row * full.y, far, column);
+  HS_HIGHP vec2 origin = vec2(originX, originY);
+#ifdef HS_SUB_LIGHTS_U
+  origin = origin * u_tiles.xy + hs_tile * side;
+#endif
+  HS_HIGHP float middle = level < 0.5 ? 5.0 : 5.5;
+  return (origin + clamp(texel * perSample + middle, vec2(0.5), side - 0.5)) * u_occlusionLayout.yz;
+}
+#else
 // Where to read a level and the next one: xy and zw.
 HS_HIGHP vec4 hs_levelPlaces(HS_HIGHP vec2 texel, float lower) {
   vec2 level = vec2(lower, lower + 1.0);
@@ -47,6 +72,7 @@ HS_HIGHP vec4 hs_levelPlaces(HS_HIGHP vec2 texel, float lower) {
   HS_HIGHP vec2 y = originY + clamp(texel.y * perSample + middle, vec2(0.5), sideY - 0.5);
   return vec4(x.x, y.x, x.y, y.y) * u_occlusionLayout.yzyz;
 }
+#endif
 // x: the largest kernel not wider than `width`, y: the share of the next one, twice as wide, for which the mix
 // has the second moment of the kernel wanted.
 HS_HIGHP vec2 hs_levels(HS_HIGHP float width) {
@@ -133,7 +159,7 @@ vec4 hs_pairsMean(HS_HIGHP sampler2D sums, HS_HIGHP vec2 texel, HS_HIGHP float w
 vec4 hs_squareMean(HS_HIGHP sampler2D levels, HS_HIGHP vec2 texel, HS_HIGHP float width) {
   HS_HIGHP vec2 level = hs_levels(width);
   HS_COUNT(2);
-#ifdef HS_FILTER_NBUFFER
+#if defined(HS_FILTER_NBUFFER) && !defined(HS_NO_HIGHP)
   HS_HIGHP vec4 places = hs_levelPlaces(texel, level.x);
   return mix(texture2D(levels, places.xy), texture2D(levels, places.zw), level.y);
 #else
@@ -161,8 +187,18 @@ float hs_channelMean(HS_HIGHP sampler2D levels, vec2 channel, HS_HIGHP vec2 texe
   return mix(columns.x, columns.y, channel.y);
 }
 vec2 hs_pairMean(HS_HIGHP sampler2D levels, float pair, HS_HIGHP vec2 texel, HS_HIGHP float width) {
+#if defined(HS_NO_HIGHP) && HS_BOXES == 1
+  // Half of the first fetch is left before the second: a value of its own takes half as many registers.
+  HS_HIGHP vec2 level = hs_levels(width);
+  HS_COUNT(2);
+  vec4 finer = texture2D(levels, hs_levelPlace(texel, level.x));
+  vec2 nearer = min(mix(finer.rg, finer.ba, pair), vec2(1.0));
+  vec4 coarser = texture2D(levels, hs_levelPlace(texel, level.x + 1.0));
+  return mix(nearer, mix(coarser.rg, coarser.ba, pair), level.y);
+#else
   vec4 mean = hs_levelFetch(levels, texel, width);
   return mix(mean.rg, mean.ba, pair);
+#endif
 }
 #define hs_pairsMean hs_levelFetch
 #endif

@@ -230,7 +230,10 @@ float hs_visibility() {
 #ifdef HS_LAST_RECEIVERS
   if (hs_ownInSlices) hs_ownInSlices = !hs_isLast();
 #endif
-#ifdef HS_CONCENTRIC
+#if defined(HS_CONCENTRIC) && defined(HS_NO_HIGHP) && !defined(HS_SUB_LIGHTS_U)
+  // In front of all slices: branches around all that follows would take registers.
+  hs_own = hs_beyondMap(vec2(1.0)) ? -60000.0 : hs_own;
+#elif defined(HS_CONCENTRIC)
   if (hs_beyondMap(vec2(1.0))) return 1.0;
 #endif
   hs_visible = 1.0;

@@ -115,6 +115,12 @@ float hs_visibility() {
   HS_HIGHP vec2 texel = clamp(place, vec2(0.5), size - 0.5);
   HS_HIGHP vec4 stored = texture2D(u_widthMap, (corner + texel) * u_widthLayout.zw);
   HS_COUNT(1);
+  // x: mean distance of the casters there, y: the largest
+#ifdef HS_NO_HIGHP
+  HS_HIGHP vec2 casters = min(stored.ba, vec2(1.0));  // a value of its own: kept whole, what is stored takes four registers
+#else
+  HS_HIGHP vec2 casters = stored.ba;
+#endif
   // No silhouette as far as distances reach.
   if (stored.r < 0.5 / 255.0) return 1.0;
   HS_HIGHP float signedTexels = hs_unpackDistance(stored.r, u_widthRange.xy);
@@ -126,14 +132,14 @@ float hs_visibility() {
     signedTexels = -length(edge);
     normal = edge / -signedTexels;
   }
-  HS_HIGHP float gap = hs_receiverValue - hs_casterDepth(stored.b);
+  HS_HIGHP float gap = hs_receiverValue - hs_casterDepth(casters.x);
   HS_HIGHP float slope = abs(hs_gradient.x) + abs(hs_gradient.y);
   HS_HIGHP float ahead = hs_receiverValue - u_bias.x - u_bias.z * slope;
 #ifdef HS_MAY_CAST
-  bool exact = ahead <= hs_casterDepth(stored.a + 1.0 / 255.0);
+  bool exact = ahead <= hs_casterDepth(casters.y + 1.0 / 255.0);
 #else
   // Occupied, but perhaps by casters behind the receiver.
-  bool exact = signedTexels > 0.0 && ahead <= hs_casterDepth(stored.b + 1.0 / 255.0);
+  bool exact = signedTexels > 0.0 && ahead <= hs_casterDepth(casters.x + 1.0 / 255.0);
 #endif
   if (exact) {
     // Only the exact depth knows, and what it finds lit is.
@@ -223,8 +229,8 @@ float halfshadow_visibility() {
 #else
 float halfshadow_visibility() {
   hs_prepare();
-  float above = hs_lightAbove();
-  return hs_lightMisses ? above : above * hs_visibility();
+  float seen = hs_lightMisses ? 1.0 : hs_visibility();
+  return hs_lightAbove() * seen;
 }
 #endif
 #ifndef HS_FORWARD

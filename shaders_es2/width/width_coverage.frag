@@ -18,6 +18,13 @@ uniform HS_HIGHP vec4 u_widthTile;    // xy: texels per side of a map, zw: 1 / x
 uniform HS_HIGHP vec4 u_widthPlace;   // xy: texels per depth texel, z: margin in texels
 uniform HS_HIGHP vec4 u_casterRange;  // x: nearest caster's distance beyond the near distance, y: 1 / range of distances, z: depth of empty texels less a margin, w: 1 / depth units
 
+#ifdef HS_NO_HIGHP
+// More than compilers unroll, which takes more registers than devices of this rung have; the end is found on the way.
+#define HS_TURNS (HS_SAMPLES_S * HS_SAMPLES_T + 32)
+#else
+#define HS_TURNS (HS_SAMPLES_S * HS_SAMPLES_T)
+#endif
+
 void main() {
   const HS_HIGHP vec2 counts = vec2(float(HS_SAMPLES_S), float(HS_SAMPLES_T));
   HS_HIGHP vec2 cell = floor(v_uv * u_widthLayout.xy) - u_widthPlace.z;
@@ -29,7 +36,13 @@ void main() {
   HS_HIGHP vec2 offset = vec2(0.5);
   HS_HIGHP vec2 sum = vec2(0.0);
   HS_HIGHP float largest = 0.0;
-  for (int i = 0; i < HS_SAMPLES_S * HS_SAMPLES_T; ++i) {
+#ifdef HS_NO_HIGHP
+  HS_HIGHP float end = counts.x * counts.y + min(u_sourceSize.x, 0.0);
+#endif
+  for (int i = 0; i < HS_TURNS; ++i) {
+#ifdef HS_NO_HIGHP
+    if (float(i) >= end) break;
+#endif
     HS_HIGHP vec2 texel = (cell + offset / counts) / u_widthPlace.xy;
 #ifdef HS_TILES
     HS_HIGHP vec2 uv = (corner + clamp(texel, vec2(0.5), vec2(u_sourceSize.x - 0.5))) * u_sourceSize.y;

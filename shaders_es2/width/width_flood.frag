@@ -12,6 +12,13 @@ uniform HS_HIGHP vec4 u_flood;        // x: stride in texels
 uniform HS_HIGHP vec4 u_widthTile;    // xy: texels per side of a map, zw: 1 / xy
 #endif
 
+#ifdef HS_NO_HIGHP
+// See width_coverage.frag.
+#define HS_TURNS (9 + 32)
+#else
+#define HS_TURNS 9
+#endif
+
 void main() {
   HS_HIGHP vec2 cell = floor(v_uv * u_widthLayout.xy) + 0.5;
 #ifdef HS_TILES
@@ -24,7 +31,13 @@ void main() {
   HS_HIGHP vec2 best = vec2(0.0);
   HS_HIGHP float bestLength = 60000.0;
   HS_HIGHP vec2 neighbour = vec2(-1.0);
-  for (int i = 0; i < 9; ++i) {
+#ifdef HS_NO_HIGHP
+  HS_HIGHP float end = 9.0 + min(u_flood.x, 0.0);
+#endif
+  for (int i = 0; i < HS_TURNS; ++i) {
+#ifdef HS_NO_HIGHP
+    if (float(i) >= end) break;
+#endif
     HS_HIGHP vec2 jump = neighbour * u_flood.x;
     HS_HIGHP vec2 at = cell + jump;
     HS_HIGHP vec4 bytes = hs_offsetBytes(texture2D(u_offsets, at * u_widthLayout.zw));

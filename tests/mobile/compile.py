@@ -7,7 +7,8 @@
 
 PATH: the program mobile_programs (default: build/bin/mobile_programs beside this repository's sources). DIR: a folder in
 which compilers of these GPUs were built from Mesa under its drm-shim, with compile_on_gpus.py in it (default: the
-environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings are compiled;
+environment variable HALFSHADOW_MOBILE_COMPILERS). For each GPU the programs of its rung at default settings, or with the
+choices of the device profile that limits.json names for it, are compiled;
 those that its driver would leave out are left out under the engine as well, whose fallbacks are then compiled, until
 nothing is dropped. Prints counts per technique and path, and of some programs with loops what
 a fragment executes, and checks them against limits.json beside this file.
@@ -23,7 +24,7 @@ import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 NOTE = ("Compiled, not measured, by Mesa's open compilers, of one receiver pixel with 8-bit visibility at default settings and "
-        "with the GPU's own fallbacks. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; Mali-T: bundles, "
+        "with the GPU's own fallbacks, of Mali-4xx with the choices of its device profile. Mali-400: words; VideoCore IV: instructions/estimated cycles, threads; Mali-T: bundles, "
         "registers, threads; Mali-G: instructions, cycles, threads; Adreno 2xx: alu + tex, registers; other Adreno: "
         "instructions, full/half registers, waves; Vivante: instructions, registers. L: loops, of which one turn is counted; "
         "S: spills and fills.")
@@ -49,23 +50,24 @@ def say(text):
 class Gpu:
     """The programs that the engine ends up with on one GPU, and their counts."""
 
-    def __init__(self, name, rung, options, tools, work):
-        self.name, self.rung, self.options, self.tools = name, rung, options, tools
+    def __init__(self, name, rung, options, tools, work, chosen=()):
+        self.name, self.rung, self.options, self.tools, self.chosen = name, rung, options, tools, chosen
         self.folder = os.path.join(work, name)
         os.makedirs(self.folder, exist_ok=True)
         self.dropped, self.results, self.programs, self.first_dropped = set(), {}, {}, []
 
     def list_programs(self):
-        if not self.dropped:  # the same for all GPUs of a rung
-            shared = os.path.join(os.path.dirname(self.folder), self.rung)
+        if not self.dropped:  # the same for all GPUs of a rung that have no choices of their own
+            shared = os.path.join(os.path.dirname(self.folder), "-".join([self.rung, *self.chosen]))
             if not os.path.exists(os.path.join(shared, "programs.tsv")):
-                subprocess.run([self.options.programs, shared, self.rung], check=True, stderr=subprocess.DEVNULL)
+                subprocess.run([self.options.programs, shared, self.rung, *self.chosen], check=True,
+                               stderr=subprocess.DEVNULL)
             self.read_programs(shared)
             return
         path = os.path.join(self.folder, "dropped")
         with open(path, "w") as file:
             file.writelines(identifier + "\n" for identifier in sorted(self.dropped))
-        subprocess.run([self.options.programs, self.folder, self.rung, "--dropped", path], check=True,
+        subprocess.run([self.options.programs, self.folder, self.rung, "--dropped", path, *self.chosen], check=True,
                        stderr=subprocess.DEVNULL)
         self.read_programs(self.folder)
 
@@ -120,6 +122,15 @@ def numbers(gpu, identifier):
     return {name: fragment[key] for key, name in names.items() if key in fragment}
 
 
+def choices(name, limits):
+    """KEY=VALUE of the device profile that a GPU's programs are counted with."""
+    profiles = [file for pattern, file in limits["profiles"].items() if re.fullmatch(pattern, name)]
+    if not profiles:
+        return []
+    with open(os.path.join(HERE, "../../profiles/devices", profiles[0])) as file:
+        return [setting["key"] + "=" + setting["value"] for setting in json.load(file)["settings"]]
+
+
 def violations(gpu, limits):
     found = []
     for rule in limits["programs"]:
@@ -149,17 +160,21 @@ def violations(gpu, limits):
 
 
 def repeated(text, function, times):
-    """The program with the body of a function's first loop written so many times."""
-    head = re.search(r"^[A-Za-z][^\n;]*\b" + function + r"\([^;{]*\{", text, re.M)
+    """The program with the body of a function's first loop written so many times, wherever the function is defined:
+    which definition counts, the preprocessor knows."""
     # Where the preprocessor chooses among headers, the body follows the last.
     header = re.compile(r"for \((?:HS_HIGHP )?int \w+ = 0; [^{]*\{\n(?:#else\n *for [^{]*\{\n#endif\n)?")
-    begin = end = header.search(text, head.end()).end()
-    depth = 1
-    while depth > 0:
-        depth += {"{": 1, "}": -1}.get(text[end], 0)
-        end += 1
-    body = "{" + text[begin:end - 1] + "}\n"
-    return text[:begin] + times * body + text[end - 1:]
+    heads = list(re.finditer(r"^[A-Za-z][^\n;]*\b" + function + r"\([^;{]*\{", text, re.M))
+    for head in reversed(heads):
+        begin = end = header.search(text, head.end()).end()
+        depth = 1
+        while depth > 0:
+            depth += {"{": 1, "}": -1}.get(text[end], 0)
+            end += 1
+        # Turns that follow each other: compilers merge equal ones.
+        bodies = ["{" + text[begin:end - 1].replace("float(i)", f"(float(i) + {turn}.0)") + "}\n" for turn in range(times)]
+        text = text[:begin] + "".join(bodies) + text[end - 1:]
+    return text
 
 
 class Sizes:
@@ -190,8 +205,9 @@ class Sizes:
 def executed(gpu, rule):
     """What a fragment runs, by label."""
     folder = os.path.join(gpu.folder, "executed")
-    subprocess.run([gpu.options.programs, folder, gpu.rung, "--scenes", rule["scene"]] + rule["settings"], check=True,
-                   stderr=subprocess.DEVNULL)
+    # Of what is set twice the last counts.
+    subprocess.run([gpu.options.programs, folder, gpu.rung, "--scenes", rule["scene"], *gpu.chosen, *rule["settings"]],
+                   check=True, stderr=subprocess.DEVNULL)
     sizes = Sizes(gpu, folder)
     found = {}
     with open(os.path.join(folder, "programs.tsv")) as file:
@@ -250,7 +266,8 @@ def main():
     rung_of = lambda name: next(rung for pattern, rung in limits["rungs"].items() if re.fullmatch(pattern, name))
     wrong = []
     with tempfile.TemporaryDirectory() as scratch:
-        gpus = [Gpu(name, rung_of(name), options, tools, options.work or scratch) for name in names]
+        gpus = [Gpu(name, rung_of(name), options, tools, options.work or scratch, choices(name, limits))
+                for name in names]
         for gpu in gpus:
             if not gpu.settle():
                 wrong.append(f"{gpu.name}: programs are dropped after {MOST_ROUNDS} rounds of fallbacks")

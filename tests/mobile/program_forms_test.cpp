@@ -2,11 +2,13 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Programs of other forms, for devices that have no room for the usual ones, draw the same pictures.
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 
 #include "analytic_scenes.hpp"
 #include "program_layer.hpp"
 #include "scenes/shapes.hpp"
+#include "truth.hpp"
 
 namespace halfshadow::test {
 namespace {
@@ -52,6 +54,45 @@ TEST_F(ProgramForms, DrawTheSamePictures) {
       EXPECT_LE(apart(usual, other), 1);
     }
     EXPECT_TRUE(used) << technique << " " << define;
+  }
+}
+
+// Forms for devices without highp, which have few registers, are other arithmetic over other places: truth
+// judges them by the forms that take tap by tap, whose depths have more bits.
+TEST_F(ProgramForms, ForFewRegistersAreAsNearToTheTruth) {
+  for (const char* scene : {"bars@light=1", "box@light=0.3"}) {
+    const Truth& truth = truthOf(scene);
+    const std::vector<std::uint8_t> penumbra = truth.penumbraOnGround();
+    const auto errors = [&](const EngineDesc& desc) {
+      ProgramLayer layer;
+      SceneRenderer renderer(layer.makeEngine(desc));
+      renderer.load(builtinScene(scene));
+      std::vector<double> found;
+      for (const char* technique : {"pcss", "pcss-mip", "pcf-quantized"}) {
+        const std::vector<float> seen =
+            renderer.render(Configuration{technique, {{"sub_lights", "1"}, {"program_size", "short"}}})
+                .visibility();
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+          if (penumbra[i] == 0) continue;
+          sum += std::pow(seen[i] - truth.visibility[i], 2);
+          count += 1.0;
+        }
+        found.push_back(std::sqrt(sum / count));
+      }
+      bool used = false;
+      for (const DrawnProgram& program : layer.takeDrawn()) {
+        if (program.defines().find("SHORT") == std::string::npos) continue;
+        used = true;
+        EXPECT_EQ(program.defines().find("NO_HIGHP") != std::string::npos, desc.forcedOffCount > 0);
+      }
+      EXPECT_TRUE(used) << scene;
+      return found;
+    };
+    const char* const off[] = {"highp"};
+    const std::vector<double> tapByTap = errors({});
+    const std::vector<double> few = errors({.forcedOff = off, .forcedOffCount = 1});
+    for (std::size_t i = 0; i < few.size(); ++i) EXPECT_LE(few[i], 1.1 * tapByTap[i]) << scene << " " << i;
   }
 }
 

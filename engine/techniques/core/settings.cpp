@@ -69,7 +69,8 @@ std::vector<SettingInfo> commonSettings() {
        0,
        {"full", "short", "parts"},
        "short: forms of pcss, pcss-mip and pcf-quantized that fit 256 instructions (tap by tap, one search, "
-       "no horizons), and wedges that receivers cut a vertex at a time; parts: also occlusion-textures "
+       "no horizons; without highp few registers, four taps a turn), and wedges that receivers cut a vertex "
+       "at a time; parts: also occlusion-textures "
        "two "
        "slices a draw and wedges-blended two quadrants a draw, on the screen; taken by themselves where the "
        "full ones draw nothing; device profiles set it"},
