@@ -94,9 +94,9 @@ measure::Json toJson(const Suite& suite, const std::vector<SceneProfile>& scenes
     }
     entry["ratios"] = measure::Json::array();
     for (const RatioResult& ratio : ratiosOf(suite, scene.times)) {
-      measure::Json json{{"of", ratio.of}, {"to", ratio.to}};
-      add(json, ratio.times);
-      entry["ratios"].push_back(std::move(json));
+      measure::Json ofTwo{{"of", ratio.of}, {"to", ratio.to}};
+      add(ofTwo, ratio.times);
+      entry["ratios"].push_back(std::move(ofTwo));
     }
     json["scenes"].push_back(std::move(entry));
   }

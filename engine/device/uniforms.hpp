@@ -4,7 +4,6 @@
 /// Uniforms as data: set by preparation, sent when a program is drawn with. No GL.
 #pragma once
 
-#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <string_view>
@@ -49,14 +48,7 @@ class UniformList {
     UniformKey key;
     UniformValue value;
   };
-  void set(UniformKey key, UniformValue value) {
-    const auto found = std::ranges::find(entries_, key.hash, [](const Entry& e) { return e.key.hash; });
-    if (found != entries_.end()) {
-      found->value = std::move(value);
-    } else {
-      entries_.push_back({key, std::move(value)});
-    }
-  }
+  void set(UniformKey key, UniformValue value);
   void clear() { entries_.clear(); }
   const std::vector<Entry>& entries() const { return entries_; }
 
