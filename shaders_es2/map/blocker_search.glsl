@@ -9,7 +9,7 @@
 // to receiver.
 HS_HIGHP vec2 hs_searchTaps(HS_HIGHP vec2 asked, HS_HIGHP float side) {
   HS_Places places = hs_firstPlaces(side);
-  hs_beginTaps(max(asked, vec2(1.0)), u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y)));
+  hs_beginTaps(max(asked, vec2(1.0)), hs_spreadBias());
   HS_HIGHP vec2 found = vec2(0.0);
 #ifdef HS_SHORT
   HS_HIGHP float count = places.turns + 0.5;

@@ -30,7 +30,7 @@ float hs_spreadSum(HS_HIGHP vec2 width, HS_HIGHP float side, HS_HIGHP float bias
 
 // The same for HS_SPREAD_KERNEL taps a side, or a texel a tap where that is less: more would read them again.
 float hs_pcfSpread(HS_HIGHP vec2 width) {
-  HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
+  HS_HIGHP float bias = hs_spreadBias();
   HS_HIGHP float side = min(floor(max(width.x, width.y)) + 2.0, float(HS_SPREAD_KERNEL));
   return hs_spreadSum(width, side, bias);
 }

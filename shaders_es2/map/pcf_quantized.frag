@@ -41,8 +41,7 @@ float hs_filter(HS_HIGHP vec2 width) {
   // A texel a tap: more taps than that read the same texels again.
   HS_HIGHP float widest = max(width.x, width.y);
   HS_HIGHP float side = widest < u_kernels.x ? u_kernels.x : (widest < u_kernels.y ? u_kernels.y : u_kernels.z);
-  HS_HIGHP float bias = u_bias.x + u_bias.z * (abs(hs_gradient.x) + abs(hs_gradient.y));
-  return hs_spreadSum(max(width, vec2(1.0)), side, bias);
+  return hs_spreadSum(max(width, vec2(1.0)), side, hs_spreadBias());
 }
 #include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD

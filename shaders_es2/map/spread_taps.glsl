@@ -12,6 +12,16 @@ HS_HIGHP vec2 hs_tapLow, hs_tapHigh;      // of the map that the fragment looks 
 HS_HIGHP vec2 hs_tapRounding;
 #endif
 
+// Taps are anywhere inside texels. A receiver that is not in the map itself needs no more slack than one in the middle.
+HS_HIGHP float hs_spreadBias() {
+#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT)
+  HS_HIGHP float perGradient = u_bias.z;
+#else
+  HS_HIGHP float perGradient = u_bias.y;
+#endif
+  return u_bias.x + perGradient * (abs(hs_gradient.x) + abs(hs_gradient.y));
+}
+
 // width: sides of the rectangle in texels.
 void hs_beginTaps(HS_HIGHP vec2 width, HS_HIGHP float bias) {
 #ifdef HS_SUB_LIGHTS_U

@@ -3,6 +3,7 @@
 // Rooms that the light is outside of are dark to where their walls meet, however the walls are split into
 // meshes.
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <glm/gtc/matrix_transform.hpp>
 
@@ -109,6 +110,57 @@ TEST_F(Interiors, ARoomIsOneHoweverItsWallsAreSplit) {
   }
   // Nothing hides a wall that stands alone, nor a ground below it that it does not touch.
   EXPECT_FALSE(judge({sheets({left}), groundPlane(20.0)}, light, "vsm").stoodIn);
+}
+
+// Just below the ceiling the wall sees no point of the light past it, by similar triangles.
+TEST_F(Interiors, WallsThatShareAnEdgeLeakNothing) {
+  const std::array<glm::vec3, 4> ceiling{{{-3, 4, -3}, {3, 4, -3}, {3, 4, 3}, {-3, 4, 3}}},
+      back{{{-3, 0, -3}, {3, 0, -3}, {3, 4, -3}, {-3, 4, -3}}};
+  for (const glm::dvec3& center : {glm::dvec3(5, 14, 8), glm::dvec3(-3, 12, 5), glm::dvec3(0.4, 9, 3)}) {
+    scene::SceneDescription tested;
+    tested.objects = {sheets({ceiling}), sheets({back}), groundPlane(8.0)};
+    tested.camera = scene::Camera{
+        .eyeWorld = {0.3, 3.4, 0.7}, .targetWorld = {0.2, 3.6, -3}, .verticalFovRadians = glm::radians(30.0)};
+    const auto light = scene::areaLightAimed(center, {0, 2, 0}, 2.0, 2.0, {0.2, 0.1, 1});
+    ASSERT_TRUE(light.ok());
+    tested.lights = {*light};
+    const auto receivers = reference::traceReceivers(tested, *tested.camera, *light, kRoomWidth, kRoomHeight);
+    ASSERT_TRUE(receivers.ok());
+    const auto isDark = [&](const glm::dvec3& at) {
+      for (const double u : {-1.0, 1.0}) {
+        for (const double v : {-1.0, 1.0}) {
+          const glm::dvec3 corner = light->centerWorld + u * light->halfU + v * light->halfV;
+          const glm::dvec3 passed = at + (corner - at) * ((4.0 - at.y) / (corner.y - at.y));
+          if (std::max(std::abs(passed.x), std::abs(passed.z)) > 3.0) return false;
+        }
+      }
+      return true;
+    };
+    for (const char* technique :
+         {"hard", "pcss", "pcss-mip", "pcf-quantized", "shadow-width", "wedges-cells"}) {
+      std::string reason;
+      if (!supports(technique, reason)) continue;
+      renderer().load(tested);
+      renderer().choose({technique});
+      renderer().desc().target.width = kRoomWidth;
+      renderer().desc().target.height = kRoomHeight;
+      const auto visibility = renderer().render().visibility();
+      double squares = 0.0;
+      int count = 0;
+      for (std::size_t i = 0; i < visibility.size(); ++i) {
+        if (receivers->kind[i] == reference::kNoReceiver) continue;
+        const glm::dvec3 at(receivers->positionWorld[i]);
+        // A texel of the coarsest map is .02 wide: nearer to the edge no map tells one side from the other.
+        if (std::abs(at.z + 3.0) > 1e-3 || at.y > 3.98 || at.y < 3.9 || !isDark(at)) continue;
+        squares += static_cast<double>(visibility[i]) * visibility[i], ++count;
+      }
+      const double rmse = std::sqrt(squares / std::max(count, 1));
+      std::printf("%-14s light at %4.1f %4.1f %4.1f: RMSE %.4f of %d\n", technique, center.x, center.y,
+                  center.z, rmse, count);
+      ASSERT_GT(count, 200);
+      EXPECT_LE(rmse, 0.01) << technique;
+    }
+  }
 }
 
 TEST(Parts, TellsWhichSideOfAClosedMeshPointsAre) {
