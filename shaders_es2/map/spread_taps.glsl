@@ -12,9 +12,10 @@ HS_HIGHP vec2 hs_tapLow, hs_tapHigh;      // of the map that the fragment looks 
 HS_HIGHP vec2 hs_tapRounding;
 #endif
 
-// Taps are anywhere inside texels. A receiver that is not in the map itself needs no more slack than one in the middle.
+// Taps are anywhere inside texels. A receiver that is not in the map itself needs no more slack than one in the middle;
+// a host's program draws both kinds.
 HS_HIGHP float hs_spreadBias() {
-#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT)
+#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT) || defined(HS_FORWARD)
   HS_HIGHP float perGradient = u_bias.z;
 #else
   HS_HIGHP float perGradient = u_bias.y;
