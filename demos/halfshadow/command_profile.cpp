@@ -223,7 +223,7 @@ void addProfileCommand(CLI::App& app, ExitStatus& status) {
       app.add_subcommand("profile", "run time against error on this device; writes a device profile");
   command
       ->add_option("SUITE", arguments->suite,
-                   "a suite of profiles/benchmarks (quick, evans, …), or its .json file")
+                   "quick, evans, forest or occlusion, or the .json file of a suite of your own")
       ->capture_default_str();
   command
       ->add_option("-o,--output", arguments->folder, "folder for profile.json, device.json and report.html")

@@ -3,20 +3,16 @@
 #include "measure/device_settings.hpp"
 
 #include <algorithm>
-#include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 namespace halfshadow::measure {
 namespace {
-namespace fs = std::filesystem;
 using nlohmann::json;
 
-Result<json> readProfile(const std::string& path) {
-  std::ifstream file(path);
-  if (!file)
-    return Error{ErrorCode::fileNotFound, path + ": the device profile cannot be read; check the path"};
-  json profile = json::parse(file, nullptr, false);
+Result<json> parsed(const std::string& path, std::string_view text) {
+  json profile = json::parse(text, nullptr, false);
   if (!profile.is_object()) {
     return Error{ErrorCode::fileMalformed,
                  path + ": not a device profile; give a device.json of `halfshadow profile`"};
@@ -52,19 +48,23 @@ bool matches(const json& profile, const std::string& renderer) {
 
 Result<std::vector<Setting>> deviceSettings(const std::string& source, const std::string& renderer) {
   if (source == "none") return std::vector<Setting>{};
-  if (source == "auto") return deviceSettingsIn(HALFSHADOW_DEVICE_PROFILES, renderer);
-  auto profile = readProfile(source);
+  if (source == "auto") return deviceSettingsAmong(shipped::profiles("devices"), renderer);
+  std::ifstream file(source);
+  if (!file)
+    return Error{ErrorCode::fileNotFound, source + ": the device profile cannot be read; check the path"};
+  const std::string text{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+  const auto profile = parsed(source, text);
   if (!profile) return profile.error();
   return settingsOf(source, *profile);
 }
 
-Result<std::vector<Setting>> deviceSettingsIn(const std::string& folder, const std::string& renderer) {
-  std::error_code missing;
-  for (const auto& entry : fs::directory_iterator(folder, missing)) {
-    if (entry.path().extension() != ".json") continue;
-    auto profile = readProfile(entry.path().string());
+Result<std::vector<Setting>> deviceSettingsAmong(std::span<const shipped::File> profiles,
+                                                 const std::string& renderer) {
+  for (const shipped::File& file : profiles) {
+    const std::string path(file.path);
+    const auto profile = parsed(path, file.text);
     if (!profile) return profile.error();
-    if (matches(*profile, renderer)) return settingsOf(entry.path().string(), *profile);
+    if (matches(*profile, renderer)) return settingsOf(path, *profile);
   }
   return std::vector<Setting>{};
 }

@@ -3,8 +3,9 @@
 #include "profile/compiled_counts.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
+
+#include "shipped/profiles.hpp"
 
 namespace halfshadow::profile {
 namespace {
@@ -28,13 +29,12 @@ bool profiles(const Suite& suite, const std::string& technique) {
 }  // namespace
 
 Result<CompiledCounts> compiledCounts(const Suite& suite) {
-  const std::string path = HALFSHADOW_COMPILED_COUNTS;
-  std::ifstream stream(path);
-  if (!stream) return CompiledCounts{};
-  const json file = json::parse(stream, nullptr, false);
+  const shipped::File* shipped = shipped::profile("compiled/mobile.json");
+  if (!shipped) return CompiledCounts{};
+  const json file = json::parse(shipped->text, nullptr, false);
   if (!isCounts(file)) {
     return Error{ErrorCode::fileMalformed,
-                 path + ": not what tests/mobile/compile.py --write gives; write it anew, or remove it"};
+                 std::string(shipped->path) + ": not what tests/mobile/compile.py --write gives; write it anew, or remove it"};
   }
   CompiledCounts counts{.note = file["note"], .header = {"compiled", "pixel"}, .rows = {}};
   for (const json& column : file["columns"]) counts.header.push_back(column.value("title", ""));

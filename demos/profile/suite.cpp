@@ -6,12 +6,17 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "shipped/profiles.hpp"
+
 namespace halfshadow::profile {
 namespace {
+
+constexpr const char* kFolder = "benchmarks";
 
 Error malformed(const std::string& file, const std::string& text) {
   return {ErrorCode::fileMalformed, file + ": " + text + "; see profiles/benchmarks/quick.json for the form"};
@@ -90,22 +95,38 @@ Suite suiteOf(const nlohmann::json& json) {
   return suite;
 }
 
+/// "evans, forest, ..."
+std::string shippedNames() {
+  std::string names;
+  for (const shipped::File& file : shipped::profiles(kFolder)) {
+    if (!names.empty()) names += ", ";
+    names += std::filesystem::path(file.path).stem().string();
+  }
+  return names;
+}
+
+Result<std::string> textOf(const std::string& nameOrFile) {
+  if (!nameOrFile.ends_with(".json")) {
+    if (const shipped::File* file = shipped::profile(kFolder + ("/" + nameOrFile + ".json")))
+      return std::string(file->text);
+  }
+  std::ifstream stream(nameOrFile);
+  if (!stream) {
+    return Error{ErrorCode::fileNotFound,
+                 nameOrFile + ": cannot be read; give a suite's .json file, or one of " + shippedNames()};
+  }
+  return std::string{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 }  // namespace
 
 Result<Suite> readSuite(const std::string& nameOrFile) {
-  std::filesystem::path path(nameOrFile);
-  if (!nameOrFile.ends_with(".json"))
-    path = std::filesystem::path(HALFSHADOW_SUITE_DIR) / (nameOrFile + ".json");
-  const std::string file = path.string();
-  std::ifstream stream(path);
-  if (!stream) {
-    return Error{ErrorCode::fileNotFound, file +
-                                              ": cannot be read; give a suite's .json file, or the name of "
-                                              "one in profiles/benchmarks, such as quick"};
-  }
+  const auto text = textOf(nameOrFile);
+  if (!text) return text.error();
+  const std::string& file = nameOrFile;
   Suite suite;
   try {
-    suite = suiteOf(nlohmann::json::parse(stream));
+    suite = suiteOf(nlohmann::json::parse(*text));
   } catch (const std::exception& error) {
     return malformed(file, error.what());
   }

@@ -46,7 +46,8 @@ struct Suite {
   std::vector<SceneRatio> sceneRatios;
 };
 
-/// `nameOrFile`: a file, or the name of one in profiles/benchmarks ("quick"). Errors: fileNotFound,
+/// `nameOrFile`: a .json file, or the name of one in profiles/benchmarks ("quick"), which the tool has in it.
+/// Errors: fileNotFound,
 /// fileMalformed (which field is missing or wrong).
 Result<Suite> readSuite(const std::string& nameOrFile);
 

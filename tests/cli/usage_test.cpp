@@ -32,6 +32,16 @@ TEST_F(CliTest, UnknownCommandsAndOptionsAreBadUsage) {
   expectFailure({"render", "builtin:nope", "-o", path("a.png")}, kBadUsage, {"nope", "box"});
 }
 
+TEST_F(CliTest, SuitesTravelWithTheTool) {
+  expectFailure({"profile", "nope", "-o", path("profile")}, kFailed, {"nope", "evans, forest, occlusion, quick"});
+  EXPECT_TRUE(files().empty());
+  // Were they read from where the tool was built, then its path would stand in the binary.
+  std::ifstream binary(HALFSHADOW_CLI, std::ios::binary);
+  const std::string bytes{std::istreambuf_iterator<char>(binary), std::istreambuf_iterator<char>()};
+  EXPECT_NE(bytes.find("Vivante GC2000"), std::string::npos) << "a device profile";
+  EXPECT_EQ(bytes.find(HALFSHADOW_PROFILES), std::string::npos);
+}
+
 TEST_F(CliTest, OptionValuesAreCheckedBeforeAnyWork) {
   const auto render = [this](const std::vector<std::string>& more) {
     std::vector<std::string> arguments{"render", "builtin:box", "-o", path("a.png")};

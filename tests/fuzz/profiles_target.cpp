@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Device profiles and suites of measurements: JSON that users write.
-#include <algorithm>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "fuzz_target.hpp"
 #include "measure/device_settings.hpp"
 #include "profile/suite.hpp"
+#include "shipped/profiles.hpp"
 #include "techniques/registry/registry.hpp"
 #include "temporary_file.hpp"
 
@@ -22,9 +18,10 @@ void requireSentence(const Result<T>& result, const std::string& path) {
   require(result.error().message.starts_with(path), "an error that does not name the file");
 }
 
-void testDevice(const TemporaryFile& file) {
+void testDevice(const TemporaryFile& file, Input input) {
   const auto given = measure::deviceSettings(file.path(), "llvmpipe");
-  const auto found = measure::deviceSettingsIn(file.folder(), "llvmpipe (LLVM 15.0.6, 256 bits)");
+  const shipped::File among[] = {{file.path(), {reinterpret_cast<const char*>(input.data()), input.size()}}};
+  const auto found = measure::deviceSettingsAmong(among, "llvmpipe (LLVM 15.0.6, 256 bits)");
   requireSentence(given, file.path()), requireSentence(found, file.path());
   if (given && found)
     require(found->empty() || found->size() == given->size(), "the same profile gives other settings");
@@ -47,23 +44,15 @@ void testSuite(const TemporaryFile& file) {
 void test(Input input) {
   static const TemporaryFile file("input.json");
   file.write(input);
-  testDevice(file);
+  testDevice(file, input);
   testSuite(file);
 }
 
 std::vector<Bytes> seeds() {
   std::vector<Bytes> all;
-  std::vector<std::filesystem::path> paths;
   for (const char* folder : {"devices", "benchmarks"}) {
-    for (const auto& entry :
-         std::filesystem::directory_iterator(std::string(HALFSHADOW_PROFILES "/") + folder))
-      if (entry.path().extension() == ".json") paths.push_back(entry.path());
-  }
-  std::sort(paths.begin(), paths.end());
-  for (const std::filesystem::path& path : paths) {
-    std::ifstream stream(path, std::ios::binary);
-    Bytes bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-    if (bytes.size() <= target().largestInput) all.push_back(std::move(bytes));
+    for (const shipped::File& file : shipped::profiles(folder))
+      if (file.text.size() <= target().largestInput) all.push_back(bytesOf(file.text));
   }
   all.push_back(
       bytesOf(R"({"match":{"renderer":"llvmpipe"},"settings":[{"key":"filter_skip","value":"loop"}]})"));

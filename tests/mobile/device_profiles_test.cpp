@@ -3,11 +3,10 @@
 // Every choice of a device profile is one that the engine knows, with its reason; what is modelled says so.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "engine_fixture.hpp"
+#include "shipped/profiles.hpp"
 
 namespace halfshadow::test {
 namespace {
@@ -18,10 +17,9 @@ class DeviceProfiles : public SharedEngineTest {};
 TEST_F(DeviceProfiles, NameKnownSettingsWithReasons) {
   Engine& engine = renderer().engine();
   std::vector<std::string> parts;
-  for (const auto& entry : std::filesystem::directory_iterator(HALFSHADOW_DEVICE_PROFILES)) {
-    SCOPED_TRACE(entry.path().filename().string());
-    std::ifstream file(entry.path());
-    const json profile = json::parse(file, nullptr, false);
+  for (const shipped::File& file : shipped::profiles("devices")) {
+    SCOPED_TRACE(file.path);
+    const json profile = json::parse(file.text, nullptr, false);
     ASSERT_TRUE(profile.is_object());
     EXPECT_TRUE(profile.contains("measured_on") ||
                 profile.value("label", "").find("not measured") != std::string::npos);
