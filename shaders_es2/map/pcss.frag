@@ -25,7 +25,7 @@ HS_HIGHP vec2 hs_penumbraWidth() {
   return hs_kernel * found.y;
 }
 
-float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(1.0))); }
+float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(HS_NARROWEST))); }
 #include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED
