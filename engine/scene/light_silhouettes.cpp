@@ -23,6 +23,33 @@ void appendLoop(Turn turn, LoopScratch& scratch, LightSilhouettes::Caster& caste
   caster.include(scratch.loop);
 }
 
+/// The greatest height over the light of a part's points, found once for the layers that it is split into: they follow
+/// each other.
+class DeepestPoint {
+ public:
+  DeepestPoint(const HalfEdgeMesh& mesh, const AffineMap& lightFromObject)
+      : mesh_(mesh), lightFromObject_(lightFromObject) {}
+  float of(std::uint32_t part) {
+    if (part == part_) return height_;
+    part_ = part;
+    height_ = -1e30f;
+    const CasterPart& own = mesh_.parts()[part];
+    for (const glm::uvec3& face : mesh_.faces().subspan(own.firstFace, own.faceCount)) {
+      for (int k = 0; k < 3; ++k) {
+        const double h = lightFromObject_(mesh_.positions()[face[k]]).z;
+        height_ = std::max(height_, static_cast<float>(h));
+      }
+    }
+    return height_;
+  }
+
+ private:
+  const HalfEdgeMesh& mesh_;
+  const AffineMap& lightFromObject_;
+  std::uint32_t part_ = ~0u;
+  float height_ = -1e30f;
+};
+
 /// A caster's silhouette in the light's coordinates, appended.
 void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, const LightPlane& plane,
                   double minHeight, LoopScratch& scratch, LightSilhouettes& result) {
@@ -31,6 +58,7 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
   result.counters += silhouette.counters;
   // (a, b, h) = lightFromObject · object + offset; the large translations cancel in double.
   const AffineMap lightFromObject{plane.axes * linear, plane.fromWorld(originWorld)};
+  DeepestPoint deepest(*caster.mesh, lightFromObject);
   // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
   const Turn turn = glm::determinant(linear) > 0.0 ? Turn::reverse : Turn::keep;
   for (const Silhouette::Part& part : silhouette.parts) {
@@ -64,15 +92,7 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
-    if (!placed.closed || placed.enclosesLight) {
-      const CasterPart& own = caster.mesh->parts()[part.part];
-      for (const glm::uvec3& face : caster.mesh->faces().subspan(own.firstFace, own.faceCount)) {
-        for (int k = 0; k < 3; ++k) {
-          const double h = lightFromObject(caster.mesh->positions()[face[k]]).z;
-          placed.deepest = std::max(placed.deepest, static_cast<float>(h));
-        }
-      }
-    }
+    if (!placed.closed || placed.enclosesLight) placed.deepest = std::max(placed.deepest, deepest.of(part.part));
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
   }
 }
