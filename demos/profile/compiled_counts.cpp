@@ -34,7 +34,8 @@ Result<CompiledCounts> compiledCounts(const Suite& suite) {
   const json file = json::parse(shipped->text, nullptr, false);
   if (!isCounts(file)) {
     return Error{ErrorCode::fileMalformed,
-                 std::string(shipped->path) + ": not what tests/mobile/compile.py --write gives; write it anew, or remove it"};
+                 std::string(shipped->path) +
+                     ": not what tests/mobile/compile.py --write gives; write it anew, or remove it"};
   }
   CompiledCounts counts{.note = file["note"], .header = {"compiled", "pixel"}, .rows = {}};
   for (const json& column : file["columns"]) counts.header.push_back(column.value("title", ""));

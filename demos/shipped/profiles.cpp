@@ -12,8 +12,8 @@ constexpr File kFiles[] = {
 };
 
 bool isIn(const File& file, std::string_view folder) {
-  return folder.empty() ||
-         (file.path.size() > folder.size() && file.path.starts_with(folder) && file.path[folder.size()] == '/');
+  return folder.empty() || (file.path.size() > folder.size() && file.path.starts_with(folder) &&
+                            file.path[folder.size()] == '/');
 }
 
 }  // namespace

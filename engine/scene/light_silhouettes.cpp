@@ -23,8 +23,8 @@ void appendLoop(Turn turn, LoopScratch& scratch, LightSilhouettes::Caster& caste
   caster.include(scratch.loop);
 }
 
-/// The greatest height over the light of a part's points, found once for the layers that it is split into: they follow
-/// each other.
+/// The greatest height over the light of a part's points, found once for the layers that it is split into:
+/// they follow each other.
 class DeepestPoint {
  public:
   DeepestPoint(const HalfEdgeMesh& mesh, const AffineMap& lightFromObject)
@@ -92,7 +92,8 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
-    if (!placed.closed || placed.enclosesLight) placed.deepest = std::max(placed.deepest, deepest.of(part.part));
+    if (!placed.closed || placed.enclosesLight)
+      placed.deepest = std::max(placed.deepest, deepest.of(part.part));
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
   }
 }

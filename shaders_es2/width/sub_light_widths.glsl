@@ -4,8 +4,8 @@
 // HS_MAY_CAST: the receiver may be in the map itself; a second fetch then where it is.
 // Needs horizon.glsl, edge_profile.glsl, and the uniforms of shadow_width.frag.
 
-// The narrowest kernel, in texels of the width map. Distances are right to a part of a texel, so that receivers which are
-// smooth need no more; on a caster's own surface the nearest silhouette is as wrong as the map is coarse.
+// The narrowest kernel, in texels of the width map. Distances are right to a part of a texel, so that receivers
+// which are smooth need no more; on a caster's own surface the nearest silhouette is as wrong as the map is coarse.
 #ifdef HS_MAY_CAST
 #define HS_NARROWEST 1.0
 #else
@@ -18,7 +18,8 @@ float hs_litByEdge(HS_HIGHP vec4 stored, HS_HIGHP float width, HS_HIGHP float co
   HS_HIGHP float share = max(stored.r * (255.0 / 127.0) - 1.0, leastInside);
   HS_HIGHP float size = abs(share);
   HS_HIGHP float knee = u_widthRange.y / u_widthRange.x + 1.0;
-  HS_HIGHP float part = hs_smallerPart(size * u_widthRange.y / ((knee - size) * max(width, HS_NARROWEST * u_casterDepth.z)));
+  HS_HIGHP float kernel = max(width, HS_NARROWEST * u_casterDepth.z);
+  HS_HIGHP float part = hs_smallerPart(size * u_widthRange.y / ((knee - size) * kernel));
   HS_HIGHP float missed = corners * (stored.g * (255.0 / 127.0) - 1.0);
   return clamp((share < 0.0 ? 1.0 - part : part) - missed, 0.0, 1.0);
 }

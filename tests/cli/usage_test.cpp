@@ -33,7 +33,8 @@ TEST_F(CliTest, UnknownCommandsAndOptionsAreBadUsage) {
 }
 
 TEST_F(CliTest, SuitesTravelWithTheTool) {
-  expectFailure({"profile", "nope", "-o", path("profile")}, kFailed, {"nope", "evans, forest, occlusion, quick"});
+  expectFailure({"profile", "nope", "-o", path("profile")}, kFailed,
+                {"nope", "evans, forest, occlusion, quick"});
   EXPECT_TRUE(files().empty());
   // Were they read from where the tool was built, then its path would stand in the binary.
   std::ifstream binary(HALFSHADOW_CLI, std::ios::binary);
