@@ -78,9 +78,8 @@ Verdict ofOutlines(const scenes::ValidationReport& report, Sight sight) {
           "; of the sides that face the light and those that face away the one that covers more counts";
   }
   if (report.cutCasters > 0) {
-    verdict.verdict = "limited";
-    verdict.outcome +=
-        "; " + countOf(report.cutCasters, report.casters) + " have holes that alpha cuts, and cast whole";
+    verdict.outcome += "; " + countOf(report.cutCasters, report.casters) +
+                       " have holes that alpha cuts: their outlines follow it";
   }
   if (report.repairedCasters > 0) {
     verdict.outcome +=

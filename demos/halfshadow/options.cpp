@@ -165,21 +165,6 @@ void addJsonArgument(CLI::App& app, std::string& path) {
                  "write the result as JSON to this file; - is standard output, without the table");
 }
 
-std::string holesNote(const scene::SceneDescription& scene) {
-  std::string names;
-  std::size_t count = 0;
-  constexpr std::size_t kNamed = 3;
-  for (const scene::SceneObject& object : scene.objects) {
-    if (!object.casts || !(object.material.alphaCutoff > 0.0f)) continue;
-    if (++count <= kNamed) names += (count > 1 ? ", '" : "'") + object.name.substr(0, 60) + "'";
-  }
-  if (count == 0) return {};
-  if (count > kNamed) names += " and " + std::to_string(count - kNamed) + " more";
-  return "alpha cuts holes into " + names +
-         ", which techniques that take outlines do not see (shadow-volume, wedges, wedges-probabilistic, "
-         "wedges-blended, wedges-cells): they cast it whole";
-}
-
 scenes::SceneOptions sceneOptions(const SceneArguments& arguments) {
   scenes::SceneOptions options{.animationTimeSeconds = arguments.animationTimeSeconds,
                                .animationIndex = arguments.animationIndex};
@@ -211,7 +196,6 @@ std::vector<measure::Setting> settingsOf(const SettingArguments& arguments) {
 Result<scene::SceneDescription> openScene(const SceneArguments& arguments) {
   auto scene = scenes::openScene(arguments.source, sceneOptions(arguments));
   if (!scene) return scene;
-  if (std::string note = holesNote(*scene); !note.empty()) scene->notes.push_back(std::move(note));
   for (const std::string& note : scene->notes) say("note: " + note);
   if (scene->lights.size() > static_cast<std::size_t>(kMaxLights)) {
     const std::string note = "the scene has " + std::to_string(scene->lights.size()) + " lights; the first " +

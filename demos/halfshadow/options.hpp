@@ -67,9 +67,6 @@ void addJsonArgument(CLI::App& app, std::string& path);
 scenes::SceneOptions sceneOptions(const SceneArguments& arguments);
 std::vector<measure::Setting> settingsOf(const SettingArguments& arguments);
 
-/// A sentence about casters into which alpha cuts holes, and the techniques that take them whole; else empty.
-std::string holesNote(const scene::SceneDescription& scene);
-
 /// Opens the scene and says its notes on standard error. Its first light is the one that is measured.
 Result<scene::SceneDescription> openScene(const SceneArguments& arguments);
 Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments);

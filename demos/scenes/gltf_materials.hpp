@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "scene/scene_description.hpp"
-#include "scenes/alpha_pyramid.hpp"
 #include "scenes/gltf_images.hpp"
 
 namespace halfshadow::scenes {

@@ -15,25 +15,26 @@ techniques::DrawItem drawItem(const EngineObject& object) {
   const scene::MeshStatistics& statistics = mesh.mesh().statistics;
   // Through holes its inside is seen.
   const bool closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0;
-  return {.object = object.id,
-          .mesh = &mesh.gpu(),
-          .casts = object.casts,
-          .receives = object.receives,
-          .worldFromObject = object.worldFromObject,
-          .baseColor = object.baseColor,
-          .baseColorTexture = object.baseColorImage ? &object.baseColorImage->texture() : nullptr,
-          .alphaMask = object.isCutOut() ? &object.alphaMask->texture() : nullptr,
-          .alphaCutoff = object.alphaCutoff,
-          .vertexColors = !mesh.mesh().colors.empty(),
-          .boundsWorld = object.boundsWorld,
-          .closed = closed,
-          .frontOnly = object.singleSided && !closed && mesh.mesh().turned.empty(),
-          .solidity = object.casts ? mesh.solidity() : 1.0f,
-          .mirrored = object.mirrored,
-          .facetStream = mesh.gpu().hasFacetStream(),
-          .sourceMesh = &mesh.mesh(),
-          .geometry = &mesh.geometry(),
-          .revision = object.revision};
+  return {
+      .object = object.id,
+      .mesh = &mesh.gpu(),
+      .casts = object.casts,
+      .receives = object.receives,
+      .worldFromObject = object.worldFromObject,
+      .baseColor = object.baseColor,
+      .baseColorTexture = object.baseColorImage ? &object.baseColorImage->texture() : nullptr,
+      .alphaMask = object.isCutOut() ? &object.alphaMask->texture() : nullptr,
+      .alphaCutoff = object.alphaCutoff,
+      .vertexColors = !mesh.mesh().colors.empty(),
+      .boundsWorld = object.boundsWorld,
+      .closed = closed,
+      .frontOnly = object.singleSided && !closed && mesh.mesh().turned.empty(),
+      .solidity = object.casts ? mesh.solidity() : 1.0f,
+      .mirrored = object.mirrored,
+      .facetStream = mesh.gpu().hasFacetStream(),
+      .sourceMesh = &mesh.mesh(),
+      .geometry = object.isCutOut() ? &mesh.geometry(object.alphaMask, object.alphaCutoff) : &mesh.geometry(),
+      .revision = object.revision};
 }
 
 void updateItems(ItemList& list, const SceneLists& scene, std::span<const std::uint32_t> objects,

@@ -95,11 +95,15 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
 
 void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string& id,
                               std::span<const techniques::DrawItem> casters) const {
-  const auto cut = std::ranges::count_if(
-      casters, [](const techniques::DrawItem& item) { return item.alphaMask != nullptr; });
+  const auto cut = std::ranges::count_if(casters, [](const techniques::DrawItem& item) {
+    if (item.alphaMask == nullptr) return false;
+    (void)item.halfEdges();
+    return item.geometry->isCoarse();
+  });
   if (cut == 0) return;
   frame.graph.noteSkipped(nameOf(light) + " holes of " + std::to_string(cut) + " casters",
-                          id + " takes casters by their outlines: what alpha cuts out of them casts too");
+                          id + " takes casters by their outlines, which follow alpha coarsely where it cuts "
+                               "finer than 60,000 triangles can");
 }
 
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,

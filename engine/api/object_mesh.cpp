@@ -69,6 +69,7 @@ Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> posi
     if (context.lost()) return context.checkErrors("replacing vertices");
     gpu_ = std::move(gpu).value();
     geometry_ = {};
+    cutGeometries_.clear();
   } else {
     Status updated = gpu_.update(context, changed);
     if (updated && context.lost()) updated = context.checkErrors("replacing vertices");
@@ -78,6 +79,7 @@ Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> posi
       return updated;
     }
     geometry_.positionsChanged();
+    for (CutGeometry& cut : cutGeometries_) cut.geometry->positionsChanged();
   }
   animated_ = true;
   mesh_ = std::move(changed);
@@ -86,6 +88,17 @@ Status ObjectMesh::setVertices(gl::Context& context, std::vector<glm::vec3> posi
   supportingPlanes_.reset();
   enclosing_ = {};
   return {};
+}
+
+const scene::CasterGeometry& ObjectMesh::geometry(const std::shared_ptr<SurfaceTexture>& mask,
+                                                  float cutoff) const {
+  const auto known = std::ranges::find_if(cutGeometries_, [&](const CutGeometry& cut) {
+    return cut.cutoff == cutoff && !cut.mask.owner_before(mask) && !mask.owner_before(cut.mask);
+  });
+  if (known != cutGeometries_.end()) return *known->geometry;
+  std::erase_if(cutGeometries_, [](const CutGeometry& cut) { return cut.mask.expired(); });
+  cutGeometries_.push_back({mask, cutoff, std::make_unique<scene::CasterGeometry>(mask->cut(cutoff))});
+  return *cutGeometries_.back().geometry;
 }
 
 const scene::SupportingPlanes& ObjectMesh::support() const {

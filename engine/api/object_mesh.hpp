@@ -7,10 +7,13 @@
 #include <memory>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
+#include "api/object_textures.hpp"
 #include "base/content_hash.hpp"
 #include "halfshadow/types.hpp"
 #include "scene/bounds.hpp"
+#include "scene/caster_geometry.hpp"
 #include "scene/convex_hull.hpp"
 #include "scene/supporting_planes.hpp"
 #include "techniques/execution/gpu_mesh.hpp"
@@ -34,7 +37,10 @@ class ObjectMesh {
 
   const scene::TriangleMesh& mesh() const { return mesh_; }  ///< recentred
   const glm::dvec3& recenteredBy() const { return recenteredBy_; }
+  /// As outlines take it.
   const scene::CasterGeometry& geometry() const { return geometry_; }
+  /// The same without what alpha cuts out; objects with one mask share it.
+  const scene::CasterGeometry& geometry(const std::shared_ptr<SurfaceTexture>& mask, float cutoff) const;
   const techniques::GpuMesh& gpu() const { return gpu_; }
   const scene::Bounds& bounds() const { return bounds_; }
   /// Its positions were replaced, and may be again.
@@ -49,7 +55,13 @@ class ObjectMesh {
  private:
   scene::TriangleMesh mesh_;
   glm::dvec3 recenteredBy_{0.0};  ///< what was taken off the host's positions
+  struct CutGeometry {
+    std::weak_ptr<SurfaceTexture> mask;
+    float cutoff = 0.0f;
+    std::unique_ptr<scene::CasterGeometry> geometry;
+  };
   scene::CasterGeometry geometry_;
+  mutable std::vector<CutGeometry> cutGeometries_;
   techniques::GpuMesh gpu_;
   scene::Bounds bounds_;
   techniques::MeshExtras extras_ = techniques::MeshExtras::none;

@@ -108,6 +108,11 @@ device::TextureWrap wrapOf(ImageWrap wrap) {
   return wrap == ImageWrap::repeat ? device::TextureWrap::repeat : device::TextureWrap::mirroredRepeat;
 }
 
+ImageWrap hostWrapOf(device::TextureWrap wrap) {
+  if (wrap == device::TextureWrap::clampToEdge) return ImageWrap::clampToEdge;
+  return wrap == device::TextureWrap::repeat ? ImageWrap::repeat : ImageWrap::mirroredRepeat;
+}
+
 device::TextureDesc textureDesc(const Texels& texels, const ObjectDesc& desc) {
   const bool powers = std::has_single_bit(texels.width) && std::has_single_bit(texels.height);
   device::TextureDesc result{.width = static_cast<int>(texels.width),
@@ -184,6 +189,19 @@ Status SurfaceTexture::upload(gl::Context& context) {
   if (image_.desc.mipmapped) made->generateMipmaps(context);
   texture_ = std::move(made).value();
   return {};
+}
+
+scene::AlphaCut SurfaceTexture::cut(float cutoff) const {
+  const device::TextureDesc& desc = image_.desc;
+  if (!alpha_)
+    alpha_ = std::make_shared<const scene::Image>(
+        scene::Image{.width = desc.width, .height = desc.height, .channels = 1, .pixels = image_.bytes});
+  return {.mask = alpha_,
+          .sampling = {.wrapU = hostWrapOf(desc.wrap),
+                       .wrapV = hostWrapOf(desc.wrapV),
+                       .filter = desc.filter == device::TextureFilter::nearest ? ImageFilter::nearest
+                                                                               : ImageFilter::linear},
+          .cutoff = cutoff};
 }
 
 Result<std::shared_ptr<SurfaceTexture>> SurfaceStore::find(gl::Context& context, const ObjectDesc& desc,

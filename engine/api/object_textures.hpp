@@ -13,6 +13,7 @@
 #include "base/content_hash.hpp"
 #include "gl/objects.hpp"
 #include "halfshadow/types.hpp"
+#include "scene/cut_by_alpha.hpp"
 
 namespace halfshadow::api {
 
@@ -34,9 +35,12 @@ class SurfaceTexture {
   Status upload(gl::Context& context);
   void forgetUpload() { texture_ = {}; }  ///< the context is gone
   const gl::Texture& texture() const { return texture_; }
+  /// Of a mask: what it cuts out of meshes.
+  scene::AlphaCut cut(float cutoff) const;
 
  private:
   SurfaceImage image_;
+  mutable std::shared_ptr<const scene::Image> alpha_;  ///< of a mask, once it was asked for
   gl::Texture texture_;
 };
 

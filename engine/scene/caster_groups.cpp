@@ -25,7 +25,7 @@ struct PlacedVertex {
 
 PlacedVertex placedVertex(const SceneCaster& caster, std::uint32_t vertex) {
   const glm::dmat4& m = caster.worldFromObject;
-  const glm::dvec3 p(caster.mesh->positions[vertex]), size = glm::abs(p);
+  const glm::dvec3 p(caster.triangles().positions[vertex]), size = glm::abs(p);
   const glm::dvec3 reach = size.x * glm::abs(glm::dvec3(m[0])) + size.y * glm::abs(glm::dvec3(m[1])) +
                            size.z * glm::abs(glm::dvec3(m[2])) + glm::abs(glm::dvec3(m[3]));
   return {glm::dvec3(m * glm::dvec4(p, 1.0)), kRoundings * std::max({reach.x, reach.y, reach.z})};
@@ -137,7 +137,7 @@ struct CasterGroups::Group {
     if (std::ranges::all_of(members, shared)) return;
     Bounds bounds;
     for (const SceneCaster& member : members)
-      bounds.include(transformed(member.worldFromObject, boundsOf(*member.mesh)));
+      bounds.include(transformed(member.worldFromObject, boundsOf(member.triangles())));
     worldFromGroup = glm::dmat4(1.0);
     worldFromGroup[3] = glm::dvec4(bounds.center(), 1.0);
   }
@@ -146,7 +146,7 @@ struct CasterGroups::Group {
     const bool moved = member.worldFromObject != worldFromGroup;
     const bool turned = moved && glm::determinant(glm::dmat3(member.worldFromObject)) < 0.0;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
-    const TriangleMesh& source = *member.mesh;
+    const TriangleMesh& source = member.triangles();
     for (std::uint32_t v = 0; v < source.positions.size(); ++v) {
       const PlacedVertex vertex = placedVertex(member, v);
       mesh.positions.push_back(moved ? glm::vec3(vertex.world - glm::dvec3(worldFromGroup[3]))
@@ -186,7 +186,7 @@ std::vector<std::vector<std::uint32_t>> CasterGroups::findGroups(std::span<const
   std::vector<const PlacedVertex*> vertices;
   for (std::uint32_t i = 0; i < casters.size(); ++i) {
     const SceneCaster& caster = casters[i];
-    if (caster.mesh->statistics.closed()) continue;
+    if (caster.triangles().statistics.closed()) continue;
     const auto kept =
         std::ranges::find_if(borders_, [&](const Border& border) { return same(border.caster, caster); });
     if (kept != borders_.end()) {
@@ -194,7 +194,7 @@ std::vector<std::vector<std::uint32_t>> CasterGroups::findGroups(std::span<const
       kept->caster.geometry = nullptr;
     } else {
       borders.push_back({.caster = caster, .vertices = {}});
-      for (const std::uint32_t v : borderVertices(*caster.mesh))
+      for (const std::uint32_t v : borderVertices(caster.triangles()))
         borders.back().vertices.push_back(placedVertex(caster, v));
     }
     casterOfBorder.push_back(i);

@@ -11,7 +11,7 @@
 #include <span>
 #include <vector>
 
-#include "scene/half_edge_mesh.hpp"
+#include "scene/caster_geometry.hpp"
 #include "scene/light_silhouettes.hpp"
 
 namespace halfshadow::scene {
@@ -22,6 +22,8 @@ struct SceneCaster {
   const CasterGeometry* geometry = nullptr;  ///< its half edges; instances share them
   glm::dmat4 worldFromObject{1.0};
   std::uint64_t revision = 0;  ///< of mesh and place; no other caster has it
+  /// Without what alpha cuts out.
+  const TriangleMesh& triangles() const { return geometry->triangles(*mesh); }
 };
 
 /// Welds casters and keeps what was welded while its members stay. Where all casters are closed it costs a

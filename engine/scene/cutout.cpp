@@ -22,11 +22,12 @@ double tamed(double coordinate) {
 }  // namespace
 
 double alphaAt(const Image& image, const ImageSampling& sampling, const glm::dvec2& texcoord) {
-  if (image.channels != 4) return 1.0;
+  if (image.channels == 3) return 1.0;
+  const auto channels = static_cast<std::size_t>(image.channels);
   const auto texel = [&](long long x, long long y) {
     const auto at = static_cast<std::size_t>(wrapped(y, image.height, sampling.wrapV)) * image.width +
                     static_cast<std::size_t>(wrapped(x, image.width, sampling.wrapU));
-    return image.pixels[4 * at + 3] / 255.0;
+    return image.pixels[channels * at + channels - 1] / 255.0;
   };
   const double x = tamed(texcoord.x) * image.width, y = tamed(texcoord.y) * image.height;
   if (sampling.filter == ImageFilter::nearest) {

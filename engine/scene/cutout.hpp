@@ -8,8 +8,8 @@
 
 namespace halfshadow::scene {
 
-/// Alpha in [0, 1] of an image of 4 channels at texture coordinates (v downward), as a sampler without mips
-/// reads it; 1 of other images.
+/// Alpha in [0, 1] of an image of 4 channels, or of 1, at texture coordinates (v downward), as a sampler
+/// without mips reads it; 1 of images of 3.
 double alphaAt(const Image& image, const ImageSampling& sampling, const glm::dvec2& texcoord);
 
 /// Alpha of an object at a place of one of its triangles: base colour, image and vertex colours together.

@@ -205,15 +205,4 @@ std::string describe(const CasterPart& part) {
   return text;
 }
 
-const HalfEdgeMesh& CasterGeometry::halfEdges(const TriangleMesh& mesh) const {
-  if (!built_) {
-    halfEdges_ = HalfEdgeMesh::build(mesh);
-  } else if (stale_) {
-    halfEdges_.updatePositions(mesh);
-  }
-  built_ = true;
-  stale_ = false;
-  return halfEdges_;
-}
-
 }  // namespace halfshadow::scene

@@ -183,17 +183,4 @@ void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, 
 /// The same with working memory of its own.
 void extractSilhouette(const HalfEdgeMesh& mesh, const glm::dvec3& lightObject, Silhouette& silhouette);
 
-/// Half-edges of one object, built when first asked for: scenes drawn with depth maps never need them.
-class CasterGeometry {
- public:
-  /// `mesh` is the same in every call.
-  const HalfEdgeMesh& halfEdges(const TriangleMesh& mesh) const;
-  /// The mesh's positions were replaced.
-  void positionsChanged() { stale_ = true; }
-
- private:
-  mutable HalfEdgeMesh halfEdges_;
-  mutable bool built_ = false, stale_ = false;
-};
-
 }  // namespace halfshadow::scene

@@ -10,7 +10,7 @@
 #include "device/capabilities.hpp"
 #include "device/draw_state.hpp"
 #include "scene/bounds.hpp"
-#include "scene/half_edge_mesh.hpp"
+#include "scene/caster_geometry.hpp"
 
 namespace halfshadow::gl {
 class Texture;

@@ -25,7 +25,7 @@ struct TechniqueInfo {
   std::string summary;
   std::string guarantees;     ///< what holds exactly
   std::string knownFailures;  ///< what it gets wrong by construction
-  /// It takes casters by their outlines, which know of no holes that alpha cuts.
+  /// It takes casters by their outlines, which follow alpha as far as triangles can.
   bool takesOutlines = false;
 };
 

@@ -10,7 +10,7 @@
 
 #include "scene/scene_description.hpp"
 
-namespace halfshadow::scenes {
+namespace halfshadow::scene {
 
 /// Least and greatest alpha, of [0, 1].
 struct AlphaRange {
@@ -21,12 +21,12 @@ struct AlphaRange {
 /// Made once an image; each question then looks at a few texels.
 class AlphaPyramid {
  public:
-  /// An image without alpha is 1 everywhere.
-  explicit AlphaPyramid(const scene::Image& image);
+  /// An image of one channel holds alpha alone; one without alpha is 1 everywhere.
+  explicit AlphaPyramid(const Image& image);
   AlphaRange all() const;
   /// Of all that a sampler reads at texture coordinates (v downward) from `low` to `high`, or of more: a
   /// range that holds it.
-  AlphaRange over(const glm::dvec2& low, const glm::dvec2& high, const scene::ImageSampling& sampling) const;
+  AlphaRange over(const glm::dvec2& low, const glm::dvec2& high, const ImageSampling& sampling) const;
 
  private:
   struct Bytes {
@@ -40,4 +40,4 @@ class AlphaPyramid {
   std::vector<Level> levels_;  ///< each half of the one before; none: no alpha
 };
 
-}  // namespace halfshadow::scenes
+}  // namespace halfshadow::scene

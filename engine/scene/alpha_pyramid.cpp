@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
-#include "scenes/alpha_pyramid.hpp"
+#include "scene/alpha_pyramid.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-namespace halfshadow::scenes {
+namespace halfshadow::scene {
 namespace {
 /// Texels along a side that are looked at: levels are chosen so that a rectangle has no more.
 constexpr int kMostTexels = 8;
@@ -32,11 +32,12 @@ bool inOnePeriod(double low, double high, int size, ImageWrap wrap, int& first, 
 }
 }  // namespace
 
-AlphaPyramid::AlphaPyramid(const scene::Image& image) {
-  if (image.channels != 4 || image.width < 1 || image.height < 1) return;
+AlphaPyramid::AlphaPyramid(const Image& image) {
+  if (image.channels == 3 || image.width < 1 || image.height < 1) return;
   Level level{image.width, image.height, {}};
-  level.texels.reserve(image.pixels.size() / 4);
-  for (std::size_t i = 3; i < image.pixels.size(); i += 4)
+  const auto channels = static_cast<std::size_t>(image.channels);
+  level.texels.reserve(image.pixels.size() / channels);
+  for (std::size_t i = channels - 1; i < image.pixels.size(); i += channels)
     level.texels.push_back({image.pixels[i], image.pixels[i]});
   levels_.push_back(std::move(level));
   while (levels_.back().width > 1 || levels_.back().height > 1) {
@@ -62,7 +63,7 @@ AlphaRange AlphaPyramid::all() const {
 }
 
 AlphaRange AlphaPyramid::over(const glm::dvec2& low, const glm::dvec2& high,
-                              const scene::ImageSampling& sampling) const {
+                              const ImageSampling& sampling) const {
   if (levels_.empty()) return {};
   const glm::dvec2 size(levels_.front().width, levels_.front().height);
   // Filtered texels, and a little for what coordinates are rounded by.
@@ -90,4 +91,4 @@ AlphaRange AlphaPyramid::over(glm::ivec2 first, glm::ivec2 last) const {
   return {static_cast<float>(found.low) / 255.0f, static_cast<float>(found.high) / 255.0f};
 }
 
-}  // namespace halfshadow::scenes
+}  // namespace halfshadow::scene
