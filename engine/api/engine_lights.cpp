@@ -77,9 +77,9 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   cache.casterShapes.resize(plan.casters.size());
   scene::Bounds castersWorld;
   for (std::size_t place = 0; place < plan.casters.size(); ++place) {
-    const planner::PlannedObject& planned = lists.planned()[plan.casters[place]];
-    if (!cache.casterShapes.holds(place, planned.id, planned.revision)) {
-      cache.casterShapes.put(place, planned.id, planned.revision, lists.object(plan.casters[place]).shape());
+    const planner::ObjectKey& key = lists.keys()[plan.casters[place]];
+    if (!cache.casterShapes.holds(place, key.id, key.revision)) {
+      cache.casterShapes.put(place, key.id, key.revision, lists.object(plan.casters[place]).shape());
     }
     castersWorld.include(cache.casterShapes.values()[place].boundsWorld);
   }
@@ -171,10 +171,9 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
 }
 
 double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) const {
-  if (cache.reachKey == sceneKey) return cache.receiverFarDistance;
+  if (cache.reachKey == sceneKey) return cache.reach.farthest();
   cache.reachKey = sceneKey;
-  cache.receiverFarDistance = api::receiverFarDistance(cache.fit, lists.planned());
-  return cache.receiverFarDistance;
+  return cache.reach.update(cache.fit, lists.planned(), lists.generation(), lists.changed());
 }
 
 SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& request,
@@ -259,7 +258,7 @@ Result<api::LightFallbacks::Choice> Engine::State::prepared(Frame& frame, const 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
                                                              std::size_t index) {
   LightCache& cache = cacheOf(index);
-  techniques::Device device{*context, *programs, shared};
+  techniques::Device device{*context, *programs, shared, lists.anyCutOut()};
   if (Status s = cache.passes->upload(device); !s) return s.error();
   return cache.passes->declare(passes);
 }
