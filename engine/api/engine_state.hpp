@@ -22,6 +22,7 @@
 #include "api/receiver_reach.hpp"
 #include "api/refusal.hpp"
 #include "api/scene_lists.hpp"
+#include "base/block_fold.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -42,6 +43,7 @@ struct LightCache {
   int mapSize = 0;
   api::ItemList casters, shadowlessReceivers;
   api::KeptList<planner::CasterShape> casterShapes;
+  BlockFold<scene::Bounds> castersWorld;  ///< of `casterShapes`
   scene::CasterGroups groups;
   scene::CasterSilhouettes silhouettes;
   scene::AreaLight light;  ///< within reach of single precision

@@ -68,7 +68,9 @@ struct FramePlanner::LightHistory {
   std::vector<std::uint32_t> drawnIds;  ///< sorted
   std::vector<char> drawn;              ///< the same by object
   Relevance toAll, toVisible;           ///< receivers
+  std::vector<std::uint32_t> casters;   ///< that were drawn, by index
   std::vector<char> relevant;           ///< by object, to any receiver
+  bool relevantIsToAll = false;         ///< what `toAll` says
   std::uint64_t relevanceOf = 0;        ///< scene, light and camera that `toAll` was last asked for
 };
 
@@ -205,14 +207,16 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   if (input.receiversUnknown) {
     relevantChanged = history.relevant != casters_;
     history.relevant = casters_;
+    history.relevantIsToAll = false;
     history.relevanceOf = 0;
   } else if (history.relevanceOf != now || objectsListed_) {
     history.relevanceOf = now;
     history.toAll.update(input, keys_, light, casters_, receivers_, largestFirst_);
     relevantChanged = history.toAll.changed();
     history.relevant.resize(known_.size());
-    for (std::uint32_t i = 0; i < known_.size(); ++i)
+    for (std::uint32_t i = 0; i < known_.size() && (relevantChanged || !history.relevantIsToAll); ++i)
       history.relevant[i] = history.toAll.canShadow(i) ? 1 : 0;
+    history.relevantIsToAll = true;
   }
   if (!input.receiversUnknown) {
     for (const Relevance::Apart& apart : history.toAll.apart()) skipCaster(apart.caster, apart.reason);
@@ -244,7 +248,14 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   if (complete) needed = &history.relevant;
   bool anyOutOfView = false;
   std::uint64_t key = lightKey;
-  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+  // All that is needed, as in the frame before: mostly so, though one of them moved.
+  const bool sameDrawn = !cached && needed == &history.relevant && !objectsListed_ &&
+                         history.drawn == history.relevant && !history.casters.empty();
+  if (sameDrawn) {
+    plan.casters = history.casters;
+    for (const std::uint32_t i : plan.casters) key += known_[i].key;
+  }
+  for (std::uint32_t i = 0; i < known_.size() && !sameDrawn; ++i) {
     const bool drawn = cached ? casters_[i] && history.drawn[i] : isNeeded(i);
     if (drawn) {
       plan.casters.push_back(i);
@@ -266,6 +277,8 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   history.lightRevision = lightRevision;
   history.castersRevision = castersRevision_;
   history.key = plan.contentKey;
+  if (sameDrawn) return plan;
+  history.casters = plan.casters;
   history.drawnIds.clear();
   for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(keys_[caster].id);
   if (!std::ranges::is_sorted(history.drawnIds)) std::ranges::sort(history.drawnIds);

@@ -202,6 +202,12 @@ TEST_F(MapUpdates, StartFromNothingWhenMapsAreForgotten) {
   const Between events[] = {
       {"nothing", [](Stage&) {}, true},
       {"trim", [](Stage& s) { EXPECT_TRUE(s.engine().trim(Trim::everything).ok()); }, false},
+      {"a lost context",
+       [](Stage& s) {
+         s.engine().contextLost();
+         EXPECT_TRUE(s.engine().contextRestored().ok());
+       },
+       false},
       {"trim of what is unused", [](Stage& s) { EXPECT_TRUE(s.engine().trim(Trim::unused).ok()); }, true},
       {"another technique", [](Stage& s) { EXPECT_TRUE(s.choose({"pcss"})); }, false},
       {"another size of maps", [](Stage& s) { s.set("map_size", "64"); }, false},

@@ -30,12 +30,8 @@ scene::Bounds rasterisedBounds(const DrawItem& item) {
   return bounds;
 }
 
-bool isSame(const ItemHistory::Known& known, const DrawItem& item) {
-  return known.object == item.object && known.revision == item.revision;
-}
-
 ItemHistory::Known knownOf(const DrawItem& item) {
-  return {item.object, item.revision, rasterisedBounds(item), workOf(item)};
+  return {rasterisedBounds(item), workOf(item)};
 }
 
 /// Values of a list's items, to the places that the items have now; those of changed ones are made anew.
@@ -68,23 +64,23 @@ std::uint32_t workOf(const DrawItem& item) {
 }
 
 /// False when too many are different.
-bool ItemHistory::findChanges(std::span<const DrawItem> items) {
+bool ItemHistory::findChanges(std::span<const DrawItem> items, std::span<const Key> keys) {
   const auto most = static_cast<std::size_t>(kMostChanged * static_cast<double>(items.size())) + kFewItems;
   changes_.clear();
   std::uint32_t before = 0, after = 0;
-  while (before < items_.size() || after < items.size()) {
-    const bool hasBefore = before < items_.size(), hasAfter = after < items.size();
-    if (hasBefore && hasAfter && isSame(items_[before], items[after])) {
+  while (before < keys_.size() || after < keys.size()) {
+    const bool hasBefore = before < keys_.size(), hasAfter = after < keys.size();
+    if (hasBefore && hasAfter && keys_[before] == keys[after]) {
       ++before, ++after;
       continue;
     }
     if (changes_.size() >= most) return false;
     Change& change = changes_.emplace_back();
     // Lists stand in the order of objects; in another order more counts as changed.
-    if (hasBefore && (!hasAfter || items_[before].object <= items[after].object)) {
+    if (hasBefore && (!hasAfter || keys_[before].object <= keys[after].object)) {
       change.before = before;
       change.boundsBefore = items_[before++].boundsWorld;
-      if (!hasAfter || items[after].object != items_[change.before].object) continue;
+      if (!hasAfter || keys[after].object != keys_[change.before].object) continue;
     }
     change.after = after;
     change.boundsAfter = rasterisedBounds(items[after++]);
@@ -92,7 +88,7 @@ bool ItemHistory::findChanges(std::span<const DrawItem> items) {
   return true;
 }
 
-void ItemHistory::takeOver(std::span<const DrawItem> items) {
+void ItemHistory::takeOver(std::span<const DrawItem> items, std::span<const Key> keys) {
   for (const Change& change : changes_) {
     if (change.before != kNowhere) work_ -= items_[change.before].work;
   }
@@ -102,20 +98,25 @@ void ItemHistory::takeOver(std::span<const DrawItem> items) {
     items_[change.after] = knownOf(items[change.after]);
     work_ += items_[change.after].work;
   }
+  keys_.assign(keys.begin(), keys.end());
 }
 
-void ItemHistory::update(std::span<const DrawItem> items, std::uint64_t& nextGeneration) {
+void ItemHistory::update(std::span<const DrawItem> items, std::span<const Key> keys,
+                         std::uint64_t& nextGeneration) {
+  if (keys.size() != items.size()) {
+    listed_.clear();
+    for (const DrawItem& item : items) listed_.push_back({item.object, item.revision});
+    keys = listed_;
+  }
   const std::uint64_t held = generation_;
-  if (generation_ != 0 && findChanges(items)) {
-    if (changes_.empty()) {
-      generationBefore_ = generation_;
-      return;
-    }
+  if (generation_ != 0 && findChanges(items, keys)) {
     generationBefore_ = held;
-    takeOver(items);
+    if (changes_.empty()) return;
+    takeOver(items, keys);
   } else {
     changes_.clear();
     generationBefore_ = 0;
+    keys_.assign(keys.begin(), keys.end());
     items_.clear();
     work_ = 0;
     for (const DrawItem& item : items) {

@@ -20,7 +20,6 @@ namespace halfshadow::techniques {
 class ItemHistory {
  public:
   struct Known {
-    std::uint64_t object = 0, revision = 0;
     scene::Bounds boundsWorld;  ///< of what is rasterised: grown by what single precision may be off
     std::uint32_t work = 0;     ///< see workOf()
   };
@@ -32,8 +31,14 @@ class ItemHistory {
     scene::Bounds boundsBefore, boundsAfter;
   };
 
-  /// Takes over what the list holds now. `nextGeneration` is counted on where that is different.
-  void update(std::span<const DrawItem> items, std::uint64_t& nextGeneration);
+  /// What tells an item from others and from itself at another time.
+  struct Key {
+    std::uint64_t object = 0, revision = 0;
+    bool operator==(const Key&) const = default;
+  };
+  /// Takes over what the list holds now. `keys`: of its items, where the caller has them apart, so that
+  /// looking through all touches little memory. `nextGeneration` is counted on where the list is different.
+  void update(std::span<const DrawItem> items, std::span<const Key> keys, std::uint64_t& nextGeneration);
 
   std::uint64_t generation() const { return generation_; }
   /// Of which the changes lead to the generation that is now; 0: of none, since too much is different.
@@ -44,9 +49,10 @@ class ItemHistory {
   std::uint64_t work() const { return work_; }  ///< of all
 
  private:
-  bool findChanges(std::span<const DrawItem> items);
-  void takeOver(std::span<const DrawItem> items);
+  bool findChanges(std::span<const DrawItem> items, std::span<const Key> keys);
+  void takeOver(std::span<const DrawItem> items, std::span<const Key> keys);
 
+  std::vector<Key> keys_, listed_;
   std::vector<Known> items_, before_;
   std::vector<Change> changes_;
   std::uint64_t generation_ = 0, generationBefore_ = 0;

@@ -74,10 +74,10 @@ void drawReadBack(framegraph::PassContext& context, gl::Program& program, const 
 }
 }  // namespace
 
-Status LightPasses::prepare(const LightScene& scene) {
+Status LightPasses::prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys) {
   plan_ = {};
   if (Status s = planner_->plan(scene, plan_); !s) return s;
-  updates_.begin(plan_, updateRuleOf(scene.settings));
+  updates_.begin(plan_, updateRuleOf(scene.settings), {scene.casters, casterKeys});
   return {};
 }
 

@@ -53,8 +53,8 @@ class LightPasses {
  public:
   explicit LightPasses(std::unique_ptr<LightPlanner> planner) : planner_(std::move(planner)) {}
 
-  /// CPU only. Errors: those of LightPlanner::plan().
-  Status prepare(const LightScene& scene);
+  /// CPU only. `casterKeys`: of the scene's casters, or none. Errors: those of LightPlanner::plan().
+  Status prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys = {});
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
   /// What the passes draw with. After upload().

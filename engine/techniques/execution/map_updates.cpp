@@ -90,7 +90,7 @@ std::uint32_t MapUpdates::listOf(std::span<const DrawItem> items) {
   return index;
 }
 
-void MapUpdates::begin(const PassPlan& plan, UpdateRule rule) {
+void MapUpdates::begin(const PassPlan& plan, UpdateRule rule, const KeyedItems& casters) {
   plan_ = &plan;
   counts_ = {};
   listsNow_.clear();
@@ -109,7 +109,7 @@ void MapUpdates::begin(const PassPlan& plan, UpdateRule rule) {
     return;
   }
   for (std::size_t i = 0; i < plan.passes.size(); ++i) {
-    if (passes_[i].followed) follow(plan.passes[i], passes_[i], rule);
+    if (passes_[i].followed) follow(plan.passes[i], passes_[i], rule, casters);
   }
   if (drawn_.size() <= followed) return;
   std::erase_if(drawn_, [&](const auto& drawn) {
@@ -117,13 +117,15 @@ void MapUpdates::begin(const PassPlan& plan, UpdateRule rule) {
   });
 }
 
-void MapUpdates::follow(const PlannedPass& pass, PassNow& now, UpdateRule rule) {
+void MapUpdates::follow(const PlannedPass& pass, PassNow& now, UpdateRule rule, const KeyedItems& casters) {
   const auto known = drawn_.find(pass.name);
   now.changed = known == drawn_.end() || known->second.contentKey != pass.contentKey;
   if (!now.changed) return;
   for (const std::uint32_t list : now.lists) {
     if (listsNow_[list].takenOver) continue;
-    lists_[list].update(listsNow_[list].items, nextGeneration_);
+    const std::span<const DrawItem> items = listsNow_[list].items;
+    const bool keyed = items.data() == casters.items.data() && items.size() == casters.items.size();
+    lists_[list].update(items, keyed ? casters.keys : std::span<const ItemHistory::Key>{}, nextGeneration_);
     listsNow_[list].takenOver = true;
   }
   if (known == drawn_.end()) return;

@@ -36,8 +36,13 @@ class MapUpdates {
     std::uint64_t drawn = 0, kept = 0;
   };
 
+  /// Items with what tells them apart, see ItemHistory::update().
+  struct KeyedItems {
+    std::span<const DrawItem> items;
+    std::span<const ItemHistory::Key> keys;
+  };
   /// Finds what of the plan's passes is different from what they drew. The plan stays until the frame ends.
-  void begin(const PassPlan& plan, UpdateRule rule);
+  void begin(const PassPlan& plan, UpdateRule rule, const KeyedItems& casters);
   /// For the graph: `fromKey` is 0 where the pass can only be drawn whole.
   framegraph::Update updateOf(std::size_t pass) const;
   /// By draw, of a pass with an update.
@@ -79,7 +84,7 @@ class MapUpdates {
   std::uint64_t readKeyOf(const PlannedDraw& draw) const;
   MapWindow windowOf(const PlannedPass& pass, const PlannedDraw& draw) const;
   std::uint32_t listOf(std::span<const DrawItem> items);
-  void follow(const PlannedPass& pass, PassNow& now, UpdateRule rule);
+  void follow(const PlannedPass& pass, PassNow& now, UpdateRule rule, const KeyedItems& casters);
   bool isDrawnAlike(const PlannedPass& pass, const DrawnPass& drawn) const;
   /// Where the pass is different. False where that cannot be told.
   bool findParts(const PlannedPass& pass, const DrawnPass& drawn, PassNow& now) const;
