@@ -95,7 +95,8 @@ class BoxField {
   }
 
   /// Errors are those of the engine, as text; empty when there is none.
-  std::string choose(const char* technique) {
+  std::string choose(const char* technique, Output output) {
+    desc_.output = output;
     if (const Outcome small = engine_->set("map_size", "64"); !small.ok()) return small.message;
     const Outcome outcome = engine_->setTechnique(technique);
     return outcome.ok() ? "" : outcome.message;
@@ -132,7 +133,6 @@ class BoxField {
     desc_.camera.farDistance = 20.0 * extent_ + 20.0;
     desc_.target.width = kWidth;
     desc_.target.height = kHeight;
-    desc_.output = Output::visibility;
     return setLight(0.0);
   }
 
@@ -186,12 +186,12 @@ enum class Ground { flat, level };
 constexpr int kBoxesOnLevel = 20;
 
 /// The benchmark's argument is the number of boxes, or of the level's triangles.
-void frame(benchmark::State& state, const char* technique, Change change, Ground ground) {
+void frame(benchmark::State& state, const char* technique, Change change, Ground ground, Output output) {
   std::string error;
   const auto size = static_cast<int>(state.range(0));
   const auto field =
       ground == Ground::flat ? BoxField::make(size, 0, error) : BoxField::make(kBoxesOnLevel, size, error);
-  if (field) error = field->choose(technique);
+  if (field) error = field->choose(technique, output);
   for (int i = 0; error.empty() && i < kWarmUpFrames; ++i) error = field->renderNext(change);
   if (!error.empty()) {
     state.SkipWithError(error.c_str());
@@ -227,7 +227,21 @@ void registerAll() {
                               {"mover", Change::oneMover},
                               {"light", Change::light}}) {
       const std::string name = std::string(technique) + "/" + what.name;
-      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change, Ground::flat)
+      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change, Ground::flat,
+                                   Output::visibility)
+          ->Arg(20)
+          ->Arg(200)
+          ->Arg(2000)
+          ->Unit(benchmark::kMicrosecond)
+          ->UseRealTime();
+    }
+  }
+  // Hosts that draw receivers themselves: what is left is the maps, and what moves in them.
+  for (const char* technique : {"hard", "pcss-mip", "shadow-width"}) {
+    for (const Named& what : {Named{"camera", Change::camera}, {"mover", Change::oneMover}}) {
+      const std::string name = std::string(technique) + "/lights-only-" + what.name;
+      benchmark::RegisterBenchmark(name.c_str(), frame, technique, what.change, Ground::flat,
+                                   Output::lightsOnly)
           ->Arg(20)
           ->Arg(200)
           ->Arg(2000)
@@ -237,7 +251,7 @@ void registerAll() {
   }
   for (const Named& what : {Named{"mover", Change::oneMover}, {"light", Change::light}}) {
     const std::string name = std::string("hard/level-") + what.name;
-    benchmark::RegisterBenchmark(name.c_str(), frame, "hard", what.change, Ground::level)
+    benchmark::RegisterBenchmark(name.c_str(), frame, "hard", what.change, Ground::level, Output::visibility)
         ->Arg(1000)
         ->Arg(100000)
         ->Unit(benchmark::kMicrosecond)

@@ -16,7 +16,9 @@ Counters countersOf(const FrameReport& report) {
           .bytesStored = report.bytesStored,
           .textureBytesUploaded = report.textureBytesUploaded,
           .bufferBytesUploaded = report.bufferBytesUploaded,
-          .silhouettesExtracted = report.silhouettesExtracted};
+          .silhouettesExtracted = report.silhouettesExtracted,
+          .castersDrawn = report.castersDrawn,
+          .castersKept = report.castersKept};
 }
 
 std::vector<PassMeasurement> passesOf(const FrameReport& report) {

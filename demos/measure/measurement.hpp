@@ -65,6 +65,7 @@ struct Counters {
   std::uint64_t passes = 0, framebufferSwitches = 0, draws = 0, triangles = 0;
   std::uint64_t bytesLoaded = 0, bytesStored = 0, textureBytesUploaded = 0, bufferBytesUploaded = 0;
   std::uint64_t silhouettesExtracted = 0;
+  std::uint64_t castersDrawn = 0, castersKept = 0;
   double tapsPerPixel = 0.0;  ///< mean over receiver pixels
 };
 

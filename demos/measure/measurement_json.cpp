@@ -38,7 +38,9 @@ Json toJson(const Counters& counters) {
           {"bytes_stored", counters.bytesStored},
           {"texture_bytes_uploaded", counters.textureBytesUploaded},
           {"buffer_bytes_uploaded", counters.bufferBytesUploaded},
-          {"silhouettes_extracted", counters.silhouettesExtracted}};
+          {"silhouettes_extracted", counters.silhouettesExtracted},
+          {"casters_drawn", counters.castersDrawn},
+          {"casters_kept", counters.castersKept}};
 }
 
 Json toJson(const PassMeasurement& pass) {

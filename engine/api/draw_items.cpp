@@ -2,8 +2,10 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "api/draw_items.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "base/keys.hpp"
 #include "scene/view_cut.hpp"
@@ -15,37 +17,36 @@ techniques::DrawItem drawItem(const EngineObject& object) {
   const scene::MeshStatistics& statistics = mesh.mesh().statistics;
   // Through holes its inside is seen.
   const bool closed = !object.isCutOut() && statistics.closed() && statistics.nonManifoldEdges == 0;
-  return {
-      .object = object.id,
-      .mesh = &mesh.gpu(),
-      .casts = object.casts,
-      .receives = object.receives,
-      .worldFromObject = object.worldFromObject,
-      .baseColor = object.baseColor,
-      .baseColorTexture = object.baseColorImage ? &object.baseColorImage->texture() : nullptr,
-      .alphaMask = object.isCutOut() ? &object.alphaMask->texture() : nullptr,
-      .alphaCutoff = object.alphaCutoff,
-      .vertexColors = !mesh.mesh().colors.empty(),
-      .boundsWorld = object.boundsWorld,
-      .closed = closed,
-      .frontOnly = object.singleSided && !closed && mesh.mesh().turned.empty(),
-      .solidity = object.casts ? mesh.solidity() : 1.0f,
-      .mirrored = object.mirrored,
-      .facetStream = mesh.gpu().hasFacetStream(),
-      .sourceMesh = &mesh.mesh(),
-      .geometry = object.isCutOut() ? &mesh.geometry(object.alphaMask, object.alphaCutoff) : &mesh.geometry(),
-      .revision = object.revision};
+  return {.object = object.id,
+          .revision = object.revision,
+          .mesh = &mesh.gpu(),
+          .casts = object.casts,
+          .receives = object.receives,
+          .worldFromObject = object.worldFromObject,
+          .baseColor = object.baseColor,
+          .baseColorTexture = object.baseColorImage ? &object.baseColorImage->texture() : nullptr,
+          .alphaMask = object.isCutOut() ? &object.alphaMask->texture() : nullptr,
+          .alphaCutoff = object.alphaCutoff,
+          .vertexColors = !mesh.mesh().colors.empty(),
+          .boundsWorld = object.boundsWorld,
+          .closed = closed,
+          .frontOnly = object.singleSided && !closed && mesh.mesh().turned.empty(),
+          .solidity = object.casts ? mesh.solidity() : 1.0f,
+          .mirrored = object.mirrored,
+          .facetStream = mesh.gpu().hasFacetStream(),
+          .sourceMesh = &mesh.mesh(),
+          .geometry = &object.geometry()};
 }
 
 void updateItems(ItemList& list, const SceneLists& scene, std::span<const std::uint32_t> objects,
                  ItemRole role) {
   list.resize(objects.size());
   for (std::size_t place = 0; place < objects.size(); ++place) {
-    const planner::PlannedObject& planned = scene.planned()[objects[place]];
-    if (list.holds(place, planned.id, planned.revision)) continue;
+    const planner::ObjectKey& key = scene.keys()[objects[place]];
+    if (list.holds(place, key.id, key.revision)) continue;
     techniques::DrawItem item = drawItem(scene.object(objects[place]));
     item.casts = item.casts && role == ItemRole::caster;
-    list.put(place, planned.id, planned.revision, std::move(item));
+    list.put(place, key.id, key.revision, std::move(item));
   }
 }
 
@@ -104,32 +105,33 @@ Result<techniques::DrawItem> cutItem(gl::Context& context, const EngineObject& o
 
 Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& scene,
                        std::span<const std::uint32_t> receivers, const std::vector<char>& castsForSome,
-                       const ReceiverView& view) {
+                       const ReceiverView& view, std::vector<ObjectId>& cut) {
   list.resize(receivers.size());
-  std::vector<std::uint32_t> cutReceivers;
+  const std::vector<ObjectId> cutBefore = std::exchange(cut, {});
   for (std::size_t place = 0; place < receivers.size(); ++place) {
     const std::uint32_t index = receivers[place];
-    const planner::PlannedObject& planned = scene.planned()[index];
+    const planner::ObjectKey& object = scene.keys()[index];
     const bool casts = castsForSome[index] != 0;
-    const std::uint64_t key = casts ? planned.revision : combineKeys(planned.revision, view.key);
-    if (!casts) cutReceivers.push_back(index);
-    if (list.holds(place, planned.id, key)) continue;
+    const std::uint64_t key = casts ? object.revision : combineKeys(object.revision, view.key);
+    if (!casts) cut.push_back(object.id);
+    if (list.holds(place, object.id, key)) continue;
     if (casts) {
-      list.put(place, planned.id, key, drawItem(scene.object(index)));
+      list.put(place, object.id, key, drawItem(scene.object(index)));
       continue;
     }
     auto item = cutItem(context, scene.object(index), view, key);
-    if (!item) return item.error();
-    list.put(place, planned.id, key, *item);
-  }
-  // Receivers that went out of view, or cast now, keep no part of themselves.
-  auto kept = cutReceivers.begin();
-  for (std::uint32_t index = 0; index < scene.objects().size(); ++index) {
-    if (kept != cutReceivers.end() && *kept == index) {
-      ++kept;
-    } else if (scene.object(index).cutReceiver.key != 0) {
-      scene.object(index).cutReceiver = {};
+    if (!item) {
+      cut.insert(cut.end(), cutBefore.begin(), cutBefore.end());
+      std::ranges::sort(cut);
+      return item.error();
     }
+    list.put(place, object.id, key, *item);
+  }
+  std::ranges::sort(cut);
+  // Receivers that went out of view, or cast now, keep no part of themselves.
+  for (const ObjectId id : cutBefore) {
+    if (std::ranges::binary_search(cut, id)) continue;
+    if (const EngineObject* object = scene.find(id)) object->cutReceiver = {};
   }
   return {};
 }

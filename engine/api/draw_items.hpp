@@ -30,9 +30,10 @@ ReceiverView receiverView(const techniques::View& screen, const scene::Camera& c
 
 /// The same of receivers; `castsForSome`, by object: it is among the casters of some light. One that casts
 /// nothing is cut to what the camera sees where its triangles are too wide for the rasteriser; casters keep
-/// their vertices, which their shadow volumes share. Errors: outOfMemory.
+/// their vertices, which their shadow volumes share. `cut`: those that hold a part of themselves, by id,
+/// sorted. Errors: outOfMemory.
 Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& scene,
                        std::span<const std::uint32_t> receivers, const std::vector<char>& castsForSome,
-                       const ReceiverView& view);
+                       const ReceiverView& view, std::vector<ObjectId>& cut);
 
 }  // namespace halfshadow::api

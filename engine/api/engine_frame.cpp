@@ -139,6 +139,7 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
   programs->beginFrame();
   planner::FramePlan framePlan =
       planner.plan({.objects = lists.planned(),
+                    .changed = lists.changed(),
                     .camera = desc.receivers == Receivers::seen ? &camera : nullptr,
                     .aspectWidthOverHeight = aspect,
                     .lights = lights,
@@ -152,7 +153,7 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
     for (const std::uint32_t i : light.casters) castsForSome[i] = 1;
   }
   if (Status s = api::updateReceivers(receivers, *context, lists, framePlan.receivers, castsForSome,
-                                      api::receiverView(frame.view, camera));
+                                      api::receiverView(frame.view, camera), cutReceivers);
       !s) {
     return s;
   }
@@ -203,6 +204,11 @@ Status Engine::State::renderFrame(const RenderDesc& desc) {
   if (Status s = context->checkErrors("a frame"); !s) return s;
   frame->passReports = std::move(passReports).value();
   frame->counters = encoder->counters() - before - proving;
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const techniques::MapUpdates::Counts& counts = cacheOf(i).passes->castersDrawn();
+    frame->castersDrawn.drawn += counts.drawn;
+    frame->castersDrawn.kept += counts.kept;
+  }
   // What objects sent since the last frame is this one's too.
   const gl::Counters& now = encoder->counters();
   frame->counters.textureUploadBytes = now.textureUploadBytes - uploadsTold.textureUploadBytes;
@@ -227,6 +233,7 @@ Result<bool> Engine::State::drawUnchanged() {
   frame.unchanged = true;
   frame.counters = {};
   frame.silhouettesExtracted = 0;
+  frame.castersDrawn = {};
   frame.passReports.clear();
   executor->repeatRun();
   if (!host) return true;

@@ -74,15 +74,18 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   LightCache& cache = cacheOf(light);
   const int mapSize = settings->integer("map_size");
   if (cache.key == plan.contentKey && cache.mapSize == mapSize) return;
+  if (cache.casterShapes.values().size() != plan.casters.size()) cache.castersWorld.forget();
   cache.casterShapes.resize(plan.casters.size());
-  scene::Bounds castersWorld;
   for (std::size_t place = 0; place < plan.casters.size(); ++place) {
-    const planner::PlannedObject& planned = lists.planned()[plan.casters[place]];
-    if (!cache.casterShapes.holds(place, planned.id, planned.revision)) {
-      cache.casterShapes.put(place, planned.id, planned.revision, lists.object(plan.casters[place]).shape());
-    }
-    castersWorld.include(cache.casterShapes.values()[place].boundsWorld);
+    const planner::ObjectKey& key = lists.keys()[plan.casters[place]];
+    if (cache.casterShapes.holds(place, key.id, key.revision)) continue;
+    cache.casterShapes.put(place, key.id, key.revision, lists.object(plan.casters[place]).shape());
+    cache.castersWorld.changed(place);
   }
+  const std::span<const planner::CasterShape> shapes = cache.casterShapes.values();
+  const scene::Bounds castersWorld = cache.castersWorld.total(
+      shapes.size(), [&](scene::Bounds& all, std::size_t place) { all.include(shapes[place].boundsWorld); },
+      [](scene::Bounds& all, const scene::Bounds& part) { all.include(part); });
   cache.light = planner::lightWithinReach(lights[light], castersWorld);
   const int mostMapSize =
       std::min({kMostGrowth * mapSize, kMostMapSize, context->capabilities().limits.textureSize});
@@ -175,10 +178,9 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
 }
 
 double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) const {
-  if (cache.reachKey == sceneKey) return cache.receiverFarDistance;
+  if (cache.reachKey == sceneKey) return cache.reach.farthest();
   cache.reachKey = sceneKey;
-  cache.receiverFarDistance = api::receiverFarDistance(cache.fit, lists.planned());
-  return cache.receiverFarDistance;
+  return cache.reach.update(cache.fit, lists.planned(), lists.generation(), lists.changed());
 }
 
 SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& request,
@@ -227,7 +229,7 @@ Status Engine::State::prepareLight(Frame& frame, const LightRequest& request,
     cache.silhouettes = {};  // another technique may see casters from other points
   }
   const std::uint64_t before = cache.silhouettes.extracted();
-  Status prepared = cache.passes->prepare(split.scene);
+  Status prepared = cache.passes->prepare(split.scene, cache.casters.keys());
   frame.silhouettesExtracted += cache.silhouettes.extracted() - before;
   return prepared;
 }
@@ -263,7 +265,7 @@ Result<api::LightFallbacks::Choice> Engine::State::prepared(Frame& frame, const 
 Result<techniques::ReceiverShading> Engine::State::shadingOf(techniques::FramePasses& passes,
                                                              std::size_t index) {
   LightCache& cache = cacheOf(index);
-  techniques::Device device{*context, *programs, shared};
+  techniques::Device device{*context, *programs, shared, lists.anyCutOut()};
   if (Status s = cache.passes->upload(device); !s) return s.error();
   return cache.passes->declare(passes);
 }

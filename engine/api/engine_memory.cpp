@@ -12,6 +12,7 @@ void Engine::State::forgetDerived() noexcept {
   planner = planner::FramePlanner();
   shared.forget();
   if (executor) executor->trim(0);
+  cutReceivers.clear();
   for (auto& [id, object] : objects) object.cutReceiver = {};
 }
 

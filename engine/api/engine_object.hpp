@@ -45,6 +45,10 @@ struct EngineObject {
   techniques::MeshExtras meshExtras() const {
     return isCutOut() ? techniques::MeshExtras::alpha : techniques::MeshExtras::none;
   }
+  /// As outlines take it.
+  const scene::CasterGeometry& geometry() const {
+    return isCutOut() ? mesh->geometry(alphaMask, alphaCutoff) : mesh->geometry();
+  }
   /// Sets worldFromObject and what follows from it and from the mesh.
   void place(const glm::dmat4& worldFromHostNow);
   /// For fits; its points are found once for a mesh, and placed when it has moved.

@@ -110,6 +110,8 @@ FrameReport Engine::State::frameReport() {
           .bufferBytesUploaded = frame.counters.bufferUploadBytes,
           .memoryBytes = state.memoryBytes(),
           .silhouettesExtracted = frame.silhouettesExtracted,
+          .castersDrawn = frame.castersDrawn.drawn,
+          .castersKept = frame.castersDrawn.kept,
           .planText = storage.planText.c_str(),
           .planGraphviz = storage.planGraphviz.c_str()};
 }

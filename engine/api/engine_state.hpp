@@ -19,8 +19,10 @@
 #include "api/item_list.hpp"
 #include "api/light_fallbacks.hpp"
 #include "api/light_split.hpp"
+#include "api/receiver_reach.hpp"
 #include "api/refusal.hpp"
 #include "api/scene_lists.hpp"
+#include "base/block_fold.hpp"
 #include "framegraph/executor.hpp"
 #include "gl/context.hpp"
 #include "gl/encoder.hpp"
@@ -41,13 +43,14 @@ struct LightCache {
   int mapSize = 0;
   api::ItemList casters, shadowlessReceivers;
   api::KeptList<planner::CasterShape> casterShapes;
+  BlockFold<scene::Bounds> castersWorld;  ///< of `casterShapes`
   scene::CasterGroups groups;
   scene::CasterSilhouettes silhouettes;
   scene::AreaLight light;  ///< within reach of single precision
   planner::LightFitter fitter;
   planner::LightFit fit;
-  std::uint64_t reachKey = 0;  ///< of the scene that receiverFarDistance was found in
-  double receiverFarDistance = 0.0;
+  std::uint64_t reachKey = 0;  ///< of the scene that the reach was found in
+  api::ReceiverReach reach;
   api::LightSplit split;
   api::Refusal refusal;
   api::LightFallbacks fallbacks;
@@ -84,6 +87,7 @@ struct Frame {
   std::vector<framegraph::PassReport> passReports;
   gl::Counters counters;
   std::uint64_t silhouettesExtracted = 0;
+  techniques::MapUpdates::Counts castersDrawn;
   bool unchanged = false;           ///< asked for again, it was drawn in part or not at all
   std::uint64_t sceneRevision = 0;  ///< see State::sceneRevision
   bool valid = false;               ///< it was drawn without an error
@@ -141,7 +145,8 @@ struct Engine::State {
   api::ItemList receivers;
   std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
   std::vector<std::uint32_t> shadowless;
-  gl::Counters uploadsTold;   ///< at the end of the last frame
+  std::vector<ObjectId> cutReceivers;  ///< see updateReceivers()
+  gl::Counters uploadsTold;            ///< at the end of the last frame
   std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;

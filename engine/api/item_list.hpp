@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "techniques/core/draw_item.hpp"
+#include "techniques/execution/item_history.hpp"
 
 namespace halfshadow::api {
 
@@ -18,6 +19,7 @@ template <typename Value>
 class KeptList {
  public:
   std::span<const Value> values() const { return values_; }
+  std::span<const techniques::ItemHistory::Key> keys() const { return slots_; }
 
   void resize(std::size_t count) {
     slots_.resize(count);
@@ -25,7 +27,7 @@ class KeptList {
   }
   /// `key`: of all that the value is made from, never 0.
   bool holds(std::size_t place, std::uint64_t object, std::uint64_t key) const {
-    return slots_[place].object == object && slots_[place].key == key;
+    return slots_[place].object == object && slots_[place].revision == key;
   }
   void put(std::size_t place, std::uint64_t object, std::uint64_t key, Value value) {
     slots_[place] = {object, key};
@@ -37,10 +39,8 @@ class KeptList {
   }
 
  private:
-  struct Slot {
-    std::uint64_t object = 0, key = 0;
-  };
-  std::vector<Slot> slots_;  ///< apart from the values: comparing them touches little memory
+  std::vector<techniques::ItemHistory::Key>
+      slots_;  ///< apart from the values: comparing them touches little memory
   std::vector<Value> values_;
 };
 

@@ -46,6 +46,26 @@ double triangleFarDistance(const planner::LightFit& fit, const std::array<glm::d
 constexpr std::size_t kMostTriangles = 4096;
 /// Of distances to boxes, found in two ways.
 constexpr double kRounding = 1e-12;
+
+/// In which the same receiver reaches as far.
+bool sameWindow(const planner::LightFit& a, const planner::LightFit& b) {
+  return a.empty == b.empty && a.lightFromWorld == b.lightFromWorld && a.tangentLow == b.tangentLow &&
+         a.tangentHigh == b.tangentHigh && a.nearDistance == b.nearDistance;
+}
+
+/// Of a receiver whose box reaches beyond what was found so far; else less than that.
+double reachBeyond(double found, const planner::LightFit& fit, const planner::PlannedObject& receiver) {
+  const double box = receiverFarDistance(fit, receiver.boundsWorld);
+  if (box <= found || receiver.mesh->triangleCount() > kMostTriangles) return box;
+  // Rounding may not make the exact answer the larger one.
+  return std::min(box, receiverFarDistance(fit, *receiver.mesh, receiver.worldFromObject));
+}
+
+struct Farthest {
+  double distance = 0.0;
+  std::uint32_t id = 0;  ///< of the object
+};
+Farthest farthestReceiver(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects);
 }  // namespace
 
 double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMesh& mesh,
@@ -66,7 +86,34 @@ double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMe
 }
 
 double receiverFarDistance(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects) {
-  if (fit.empty) return 0.0;
+  return farthestReceiver(fit, objects).distance;
+}
+
+double ReceiverReach::update(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects,
+                             std::uint64_t generation,
+                             std::optional<std::span<const std::uint32_t>> changed) {
+  const auto isFarthest = [&](std::uint32_t i) { return objects[i].id == farthestId_; };
+  const bool follows = changed && generation_ + 1 == generation && sameWindow(fit, fit_) &&
+                       std::ranges::none_of(*changed, isFarthest);
+  if (follows) {
+    for (const std::uint32_t i : *changed) {
+      const planner::PlannedObject& object = objects[i];
+      if (!object.receives || object.boundsWorld.empty() || fit.empty) continue;
+      const double reach = reachBeyond(farthest_, fit, object);
+      if (reach > farthest_) farthest_ = reach, farthestId_ = object.id;
+    }
+  } else {
+    const Farthest found = farthestReceiver(fit, objects);
+    farthest_ = found.distance, farthestId_ = found.id;
+  }
+  fit_ = fit;
+  generation_ = generation;
+  return farthest_;
+}
+
+namespace {
+Farthest farthestReceiver(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects) {
+  if (fit.empty) return {};
   struct Reach {
     double atMost = 0.0;
     const planner::PlannedObject* receiver = nullptr;
@@ -81,22 +128,17 @@ double receiverFarDistance(const planner::LightFit& fit, std::span<const planner
     reaches.push_back({middle + half + kRounding * (std::abs(middle) + half), &object});
   }
   std::ranges::make_heap(reaches, {}, &Reach::atMost);
-  double farthest = 0.0;
-  while (!reaches.empty() && reaches.front().atMost > farthest) {
+  Farthest farthest;
+  while (!reaches.empty() && reaches.front().atMost > farthest.distance) {
     const planner::PlannedObject& receiver = *reaches.front().receiver;
     std::ranges::pop_heap(reaches, {}, &Reach::atMost);
     reaches.pop_back();
-    const double box = receiverFarDistance(fit, receiver.boundsWorld);
-    if (box <= farthest) continue;
-    const scene::TriangleMesh& mesh = *receiver.mesh;
-    // Rounding may not make the exact answer the larger one.
-    farthest =
-        std::max(farthest, mesh.triangleCount() > kMostTriangles
-                               ? box
-                               : std::min(box, receiverFarDistance(fit, mesh, receiver.worldFromObject)));
+    const double reach = reachBeyond(farthest.distance, fit, receiver);
+    if (reach > farthest.distance) farthest = {reach, receiver.id};
   }
   return farthest;
 }
+}  // namespace
 
 double receiverFarDistance(const planner::LightFit& fit, const scene::Bounds& receiverWorld) {
   if (fit.empty || receiverWorld.empty()) return 0.0;

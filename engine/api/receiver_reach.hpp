@@ -4,6 +4,8 @@
 /// How far behind the casters receivers reach.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <span>
 
 #include "planner/frame_planner.hpp"
@@ -24,5 +26,21 @@ double receiverFarDistance(const planner::LightFit& fit, const scene::TriangleMe
 /// Of all objects that receive: by their triangles where a mesh has few enough, else by its box. Only those
 /// are looked at whose boxes reach farther than what was found.
 double receiverFarDistance(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects);
+
+/// The same, kept: where some objects changed and the fit is as it was, they alone are looked at, unless the
+/// farthest is among them.
+class ReceiverReach {
+ public:
+  /// `generation` counts on with every change of the objects; `changed`: by index, since the one before it.
+  double update(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects,
+                std::uint64_t generation, std::optional<std::span<const std::uint32_t>> changed);
+  double farthest() const { return farthest_; }
+
+ private:
+  planner::LightFit fit_;
+  std::uint64_t generation_ = 0;
+  double farthest_ = 0.0;
+  std::uint32_t farthestId_ = 0;
+};
 
 }  // namespace halfshadow::api

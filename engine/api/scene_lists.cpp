@@ -20,22 +20,38 @@ planner::PlannedObject plannedObject(const EngineObject& object) {
 }  // namespace
 
 void SceneLists::update(const std::map<ObjectId, EngineObject>& objects) {
+  ++generation_;
+  changedPlaces_.clear();
+  relisted_ = !listed_;
   if (!listed_) {
     objects_.clear();
     planned_.clear();
+    keys_.clear();
+    anyCutOut_ = false;
     for (const auto& [id, object] : objects) {
       objects_.push_back(&object);
       planned_.push_back(plannedObject(object));
+      keys_.push_back({id, object.revision});
+      anyCutOut_ = anyCutOut_ || object.isCutOut();
     }
     listed_ = true;
   } else {
     for (const ObjectId id : changed_) {
-      const auto found = std::ranges::lower_bound(planned_, id, {}, &planner::PlannedObject::id);
-      if (found != planned_.end() && found->id == id)
-        *found = plannedObject(*objects_[static_cast<std::size_t>(found - planned_.begin())]);
+      const auto found = std::ranges::lower_bound(keys_, id, {}, &planner::ObjectKey::id);
+      if (found == keys_.end() || found->id != id) continue;
+      const auto place = static_cast<std::uint32_t>(found - keys_.begin());
+      planned_[place] = plannedObject(*objects_[place]);
+      found->revision = planned_[place].revision;
+      changedPlaces_.push_back(place);
     }
   }
   changed_.clear();
+}
+
+const EngineObject* SceneLists::find(ObjectId id) const {
+  const auto found = std::ranges::lower_bound(keys_, id, {}, &planner::ObjectKey::id);
+  return found != keys_.end() && found->id == id ? objects_[static_cast<std::size_t>(found - keys_.begin())]
+                                                 : nullptr;
 }
 
 }  // namespace halfshadow::api

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -19,17 +20,32 @@ class SceneLists {
   void listChanged() { listed_ = false; }
   void objectChanged(const EngineObject& object) { changed_.push_back(object.id); }
   void update(const std::map<ObjectId, EngineObject>& objects);
+  /// By index, what the last update found different; none: the list was another.
+  std::optional<std::span<const std::uint32_t>> changed() const {
+    return relisted_ ? std::nullopt : std::optional<std::span<const std::uint32_t>>(changedPlaces_);
+  }
+
+  /// Counts updates.
+  std::uint64_t generation() const { return generation_; }
 
   // By index, in the order of ids.
   const EngineObject& object(std::size_t index) const { return *objects_[index]; }
   std::span<const EngineObject* const> objects() const { return objects_; }
   std::span<const planner::PlannedObject> planned() const { return planned_; }
+  std::span<const planner::ObjectKey> keys() const { return keys_; }
+  bool anyCutOut() const { return anyCutOut_; }  ///< has holes that alpha cuts
+  /// Null when there is none of that id.
+  const EngineObject* find(ObjectId id) const;
 
  private:
   bool listed_ = false;
   std::vector<ObjectId> changed_;
   std::vector<const EngineObject*> objects_;
   std::vector<planner::PlannedObject> planned_;
+  std::vector<planner::ObjectKey> keys_;
+  std::vector<std::uint32_t> changedPlaces_;
+  bool relisted_ = true, anyCutOut_ = false;
+  std::uint64_t generation_ = 0;
 };
 
 }  // namespace halfshadow::api

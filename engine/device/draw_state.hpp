@@ -33,21 +33,25 @@ enum class StencilOp { keep, zero, replace, incrWrap, decrWrap, incr, decr, inve
 struct DepthState {
   Compare test = Compare::always;
   bool write = false;
+  bool operator==(const DepthState&) const = default;
 };
 struct BlendState {
   bool enabled = false;
   BlendEquation equation = BlendEquation::add;
   BlendFactor source = BlendFactor::one, destination = BlendFactor::zero;
+  bool operator==(const BlendState&) const = default;
 };
 struct StencilFace {
   Compare test = Compare::always;
   StencilOp stencilFail = StencilOp::keep, depthFail = StencilOp::keep, pass = StencilOp::keep;
+  bool operator==(const StencilFace&) const = default;
 };
 struct StencilState {
   bool enabled = false;
   int reference = 0;
   std::uint32_t readMask = 0xff, writeMask = 0xff;
   StencilFace front, back;
+  bool operator==(const StencilState&) const = default;
 };
 struct DrawState {
   DepthState depth;
@@ -58,6 +62,7 @@ struct DrawState {
   std::optional<Rect> scissor;             ///< window coordinates of the target
   std::optional<glm::vec2> polygonOffset;  ///< factor, units
   glm::vec2 depthRange{0.0f, 1.0f};        ///< window depths of clip depths -1 and 1
+  bool operator==(const DrawState&) const = default;
 };
 
 /// Vertex attributes have fixed locations, the same in every program.

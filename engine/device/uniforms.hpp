@@ -22,6 +22,7 @@ struct UniformKey {
     for (const char c : name) h = (h ^ static_cast<std::uint8_t>(c)) * 16777619u;
     return h;
   }
+  bool operator==(const UniformKey&) const = default;
 };
 
 /// An array of the shader. No bare std::vector: where an alternative's copy throws, libstdc++ 12 destroys
@@ -33,6 +34,7 @@ class UniformArray {
   UniformArray(std::vector<Vector> values) : values_(std::move(values)) {}
   const Vector* data() const { return values_.data(); }
   std::size_t size() const { return values_.size(); }
+  bool operator==(const UniformArray&) const = default;
 
  private:
   std::vector<Vector> values_;
@@ -47,10 +49,12 @@ class UniformList {
   struct Entry {
     UniformKey key;
     UniformValue value;
+    bool operator==(const Entry&) const = default;
   };
   void set(UniformKey key, UniformValue value);
   void clear() { entries_.clear(); }
   const std::vector<Entry>& entries() const { return entries_; }
+  bool operator==(const UniformList&) const = default;
 
  private:
   std::vector<Entry> entries_;

@@ -48,7 +48,8 @@ std::vector<Use> usesOf(const Graph& graph, const Plan& plan) {
 gl::ClearValues clearValuesOf(const PlannedPass& planned) {
   gl::ClearValues values;
   for (const PlannedAttachment& attachment : planned.attachments) {
-    if (attachment.load != LoadAction::clear) continue;
+    // What is loaded for an update is cleared in its parts.
+    if (attachment.load != LoadAction::clear && !planned.updates) continue;
     const float* color = attachment.clear.color;
     const bool depthStencil = attachment.point == AttachmentPoint::depthStencil;
     if (attachment.point == AttachmentPoint::color)
@@ -188,7 +189,9 @@ Status Executor::State::runPass(const Graph& graph, const PlannedPass& planned, 
   gl::PassBegin begin{
       .framebuffer = target.framebuffer, .viewport = target.viewport, .clear = clearValuesOf(planned)};
   // The host may own pixels of its framebuffer outside the viewport.
-  if (target.imported) begin.clearScissor = target.viewport;
+  if (target.imported) begin.clearParts = {&target.viewport, 1};
+  if (planned.updates) begin.clearParts = pass.update.parts;
+  if (planned.updates && pass.update.parts.empty()) begin.clear = {};
   encoder.beginPass(begin);
   if (pass.execute) pass.execute(passContext);
   encoder.endPass(discardsOf(planned));
@@ -240,6 +243,7 @@ Result<std::vector<PassReport>> Executor::run(const Graph& graph, const Plan& pl
     const gl::Counters before = encoder.counters();
     PassContext passContext(encoder, targets[i].viewport);
     passContext.executor_ = this;
+    passContext.updates = plan.passes[i].updates;
     if (timing == PassTiming::perPass) state.timer->begin();
     const Status status = state.runPass(graph, plan.passes[i], targets[i], passContext, encoder);
     if (timing == PassTiming::perPass) {

@@ -21,6 +21,8 @@ class PassContext {
       : encoder(encoderToUse), viewport(viewportToUse) {}
   gl::Encoder& encoder;
   gl::Rect viewport;
+  /// The targets hold what PassDesc::update says: the pass draws what lies in its parts, into them alone.
+  bool updates = false;
   /// Texture behind a resource that the pass reads.
   const gl::Texture& texture(ResourceId resource) const;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/error.hpp"
+#include "base/rect.hpp"
 
 namespace halfshadow::framegraph {
 
@@ -66,6 +67,7 @@ struct ClearValue {
   float color[4] = {0, 0, 0, 0};
   float depth = 1.0f;
   int stencil = 0;
+  bool operator==(const ClearValue&) const = default;
 };
 
 struct Attachment {
@@ -73,6 +75,13 @@ struct Attachment {
   AttachmentPoint point = AttachmentPoint::color;
   InitialContent initial = InitialContent::clear;
   ClearValue clear;
+  bool operator==(const Attachment&) const = default;
+};
+
+/// How a pass makes its content from what its targets hold of another frame.
+struct Update {
+  std::uint64_t fromKey = 0;  ///< content key of what they must hold for that; 0: it does not
+  std::vector<Rect> parts;    ///< of the targets: outside of them nothing is different
 };
 
 /// Handed to a pass when it runs; the executor's type, opaque to the plan.
@@ -86,6 +95,9 @@ struct PassDesc {
   /// Non-zero: identifies the content that this pass leaves in its persistent targets (a hash of everything
   /// it depends on). When all of them already hold exactly this, the pass is skipped.
   std::uint64_t contentKey = 0;
+  /// Of a pass with a contentKey that clears all its targets: where the persistent ones hold what it says,
+  /// they are loaded, its parts alone are cleared, and the pass draws into them alone (PassContext::updates).
+  Update update{};
   /// Why the framebuffer is bound a second time, when another pass of the frame wrote the same attachments.
   std::string rebindReason;
   std::function<void(PassContext&)> execute;

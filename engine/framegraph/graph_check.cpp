@@ -112,6 +112,26 @@ Status checkReads(const Graph& graph, const PassDesc& pass) {
   return {};
 }
 
+Status checkUpdate(const Graph& graph, const PassDesc& pass) {
+  if (pass.update.fromKey == 0) return {};
+  const std::string where = "pass '" + pass.name + "' updates its targets ";
+  if (pass.contentKey == 0) return broken(where + "but has no content key");
+  bool anyPersistent = false;
+  for (const Attachment& attachment : pass.writes) {
+    const ResourceDesc& desc = graph.resources()[attachment.resource.index];
+    if (attachment.initial != InitialContent::clear || desc.lifetime == Lifetime::imported)
+      return broken(where + "but does not clear '" + desc.name + "', or the host owns it");
+    anyPersistent = anyPersistent || desc.lifetime == Lifetime::persistent;
+    for (const Rect& part : pass.update.parts) {
+      if (part.x < 0 || part.y < 0 || part.width <= 0 || part.height <= 0 ||
+          part.x + part.width > desc.width || part.y + part.height > desc.height)
+        return broken(where + "in a part that is empty or reaches out of '" + desc.name + "'");
+    }
+  }
+  if (!anyPersistent) return broken(where + "but none of them is persistent");
+  return {};
+}
+
 }  // namespace
 
 Status checkGraph(const Graph& graph) {
@@ -119,6 +139,7 @@ Status checkGraph(const Graph& graph) {
   for (const PassDesc& pass : graph.passes()) {
     if (Status status = checkWrites(graph, pass); !status) return status;
     if (Status status = checkReads(graph, pass); !status) return status;
+    if (Status status = checkUpdate(graph, pass); !status) return status;
   }
   return {};
 }

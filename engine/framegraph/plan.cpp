@@ -257,12 +257,28 @@ class Compiler {
     return {};
   }
 
-  PlannedAttachment planAttachment(std::uint32_t index, const Attachment& attachment) const {
+  // What the pass would update is there, and no pass of this frame draws over it before.
+  bool updatesTargets(std::uint32_t index) const {
+    const std::uint64_t from = pass(index).update.fromKey;
+    if (from == 0 || from == kUnidentifiedContent) return false;
+    for (const Attachment& attachment : pass(index).writes) {
+      const ResourceDesc& target = desc(attachment.resource);
+      if (target.lifetime != Lifetime::persistent) continue;
+      if (contentKeyOf_(target) != from) return false;
+      for (const std::uint32_t writer : writers_.at(attachment.resource.index)) {
+        if (writer != index && before(writer, index) && nodes_[writer].runs) return false;
+      }
+    }
+    return true;
+  }
+
+  PlannedAttachment planAttachment(std::uint32_t index, const Attachment& attachment, bool updates) const {
     const ResourceDesc& target = desc(attachment.resource);
     PlannedAttachment planned{
         .resource = attachment.resource, .point = attachment.point, .clear = attachment.clear};
     const std::uint64_t bytes = attachmentBytes(target, attachment.point);
-    switch (attachment.initial) {
+    const bool loads = updates && target.lifetime == Lifetime::persistent;
+    switch (loads ? InitialContent::keep : attachment.initial) {
       case InitialContent::clear:
         planned.load = LoadAction::clear;
         break;
@@ -300,10 +316,10 @@ class Compiler {
                                               pass(first->second).name +
                                               "' again; merge them or give a rebindReason"};
       }
-      PlannedPass planned{.pass = index};
+      PlannedPass planned{.pass = index, .updates = updatesTargets(index)};
       if (!fresh) planned.rebindReason = source.rebindReason;
       for (const Attachment& attachment : source.writes) {
-        planned.attachments.push_back(planAttachment(index, attachment));
+        planned.attachments.push_back(planAttachment(index, attachment, planned.updates));
         plan.bytesLoaded += planned.attachments.back().bytesLoaded;
         plan.bytesStored += planned.attachments.back().bytesStored;
         if (desc(attachment.resource).mipmapped) planned.generatesMipmaps = true;

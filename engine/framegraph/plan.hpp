@@ -30,6 +30,7 @@ struct PlannedPass {
   std::uint32_t pass = 0;  ///< index into Graph::passes()
   std::vector<PlannedAttachment> attachments;
   bool generatesMipmaps = false;
+  bool updates = false;  ///< PassDesc::update's parts alone are cleared and drawn
   std::string rebindReason;
 };
 

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "gl/encoder.hpp"
 
+#include <algorithm>
+
 #include "gl/encoder_cache.hpp"
 
 namespace halfshadow::gl {
@@ -87,15 +89,13 @@ void Encoder::beginPass(const PassBegin& begin) {
     mask |= GL_STENCIL_BUFFER_BIT;
   }
   if (mask == 0) return;
-  if (begin.clearScissor) {
-    const Rect& rect = *begin.clearScissor;
-    cache.scissorBox.set(gl, {rect.x, rect.y, rect.width, rect.height});
-    cache.scissorTest.set(gl, 1);
-  } else {
-    cache.scissorTest.set(gl, 0);
+  cache.scissorTest.set(gl, begin.clearParts.empty() ? 0 : 1);
+  if (begin.clearParts.empty()) gl.clear(mask);
+  for (const Rect& part : begin.clearParts) {
+    cache.scissorBox.set(gl, {part.x, part.y, part.width, part.height});
+    gl.clear(mask);
   }
-  gl.clear(mask);
-  ++counters_.clears;
+  counters_.clears += std::max<std::size_t>(begin.clearParts.size(), 1);
 }
 
 void Encoder::setViewport(const Rect& viewport) {

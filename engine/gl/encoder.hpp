@@ -63,8 +63,8 @@ struct ClearValues {
 struct PassBegin {
   const Framebuffer* framebuffer = nullptr;
   Rect viewport;
-  ClearValues clear;  ///< a full clear of the attachments, unless clearScissor is set
-  std::optional<Rect> clearScissor;
+  ClearValues clear;
+  std::span<const Rect> clearParts;  ///< that the clear stays inside of; none: all of the attachments
 };
 /// Attachments whose content nobody reads after the pass.
 struct PassEnd {

@@ -73,7 +73,8 @@ void ProofBench::clear() {
   encoder_.beginPass(pass);
   encoder_.endPass({});
   pass.clear = {.color = glm::vec4(1.0f)};
-  pass.clearScissor = Rect{0, 1, kColumns, 1};
+  const Rect upper{0, 1, kColumns, 1};
+  pass.clearParts = {&upper, 1};
   encoder_.beginPass(pass);
   encoder_.endPass({});
 }

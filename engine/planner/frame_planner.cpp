@@ -68,7 +68,9 @@ struct FramePlanner::LightHistory {
   std::vector<std::uint32_t> drawnIds;  ///< sorted
   std::vector<char> drawn;              ///< the same by object
   Relevance toAll, toVisible;           ///< receivers
+  std::vector<std::uint32_t> casters;   ///< that were drawn, by index
   std::vector<char> relevant;           ///< by object, to any receiver
+  bool relevantIsToAll = false;         ///< what `toAll` says
   std::uint64_t relevanceOf = 0;        ///< scene, light and camera that `toAll` was last asked for
 };
 
@@ -94,12 +96,14 @@ FramePlanner::LightHistory& FramePlanner::historyOf(std::uint32_t number) {
 }
 
 void FramePlanner::listObjects(const FrameInput& input) {
-  known_.clear();
+  keys_.clear(), known_.clear();
+  castersRevision_ = sceneRevision_ = kKeySeed;
   casters_.clear(), receivers_.clear(), visible_.clear(), largestFirst_.clear();
   for (std::uint32_t i = 0; i < input.objects.size(); ++i) {
     const PlannedObject& object = input.objects[i];
     const bool exists = !object.boundsWorld.empty();
-    known_.push_back({.id = object.id});
+    keys_.push_back({.id = object.id});
+    known_.push_back({.casts = object.casts});
     casters_.push_back(exists && object.casts ? 1 : 0);
     receivers_.push_back(exists && object.receives ? 1 : 0);
     if (receivers_.back()) largestFirst_.push_back(i);
@@ -120,26 +124,35 @@ void FramePlanner::place(const FrameInput& input, const glm::dmat4& clipFromWorl
   frontToBack_.insert(std::ranges::lower_bound(frontToBack_, placed), placed);
 }
 
-/// Takes over what changed since the frame before.
-void FramePlanner::observe(const FrameInput& input) {
-  objectsListed_ = !std::ranges::equal(input.objects, known_, {}, &PlannedObject::id, &Known::id);
-  if (objectsListed_) listObjects(input);
+std::vector<std::uint32_t> FramePlanner::movedObjects(const FrameInput& input) {
   std::vector<std::uint32_t> moved;
-  std::uint64_t casters = kKeySeed, scene = kKeySeed;
-  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+  const auto look = [&](std::uint32_t i) {
     const PlannedObject& object = input.objects[i];
     Known& known = known_[i];
-    if (known.key == 0 || known.revision != object.revision) {
-      known.revision = object.revision;
-      known.key = keyOf(object);
-      moved.push_back(i);
-    }
+    if (known.key != 0 && keys_[i].revision == object.revision) return;
     // Sums, so that one object's share changes without the others' being looked at.
-    scene += known.key;
-    if (object.casts) casters += known.key;
+    const std::uint64_t change = keyOf(object) - known.key;
+    sceneRevision_ += change;
+    if (known.casts) castersRevision_ += change;
+    known.key += change;
+    keys_[i].revision = object.revision;
+    moved.push_back(i);
+  };
+  if (input.changed && !objectsListed_) {
+    for (const std::uint32_t i : *input.changed) look(i);
+    std::ranges::sort(moved);
+  } else {
+    for (std::uint32_t i = 0; i < known_.size(); ++i) look(i);
   }
-  sceneRevision_ = scene, castersRevision_ = casters;
+  return moved;
+}
 
+/// Takes over what changed since the frame before.
+void FramePlanner::observe(const FrameInput& input) {
+  const bool told = input.changed && input.objects.size() == keys_.size();
+  objectsListed_ = !told && !std::ranges::equal(input.objects, keys_, {}, &PlannedObject::id, &ObjectKey::id);
+  if (objectsListed_) listObjects(input);
+  const std::vector<std::uint32_t> moved = movedObjects(input);
   const std::uint64_t cameraNow = cameraKeyOf(input);
   glm::dmat4 clipFromWorld(1.0);
   if (input.camera) {
@@ -194,14 +207,16 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   if (input.receiversUnknown) {
     relevantChanged = history.relevant != casters_;
     history.relevant = casters_;
+    history.relevantIsToAll = false;
     history.relevanceOf = 0;
   } else if (history.relevanceOf != now || objectsListed_) {
     history.relevanceOf = now;
-    history.toAll.update(input, light, casters_, receivers_, largestFirst_);
+    history.toAll.update(input, keys_, light, casters_, receivers_, largestFirst_);
     relevantChanged = history.toAll.changed();
     history.relevant.resize(known_.size());
-    for (std::uint32_t i = 0; i < known_.size(); ++i)
+    for (std::uint32_t i = 0; i < known_.size() && (relevantChanged || !history.relevantIsToAll); ++i)
       history.relevant[i] = history.toAll.canShadow(i) ? 1 : 0;
+    history.relevantIsToAll = true;
   }
   if (!input.receiversUnknown) {
     for (const Relevance::Apart& apart : history.toAll.apart()) skipCaster(apart.caster, apart.reason);
@@ -209,7 +224,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   if (objectsListed_ || history.drawn.size() != known_.size()) {
     history.drawn.assign(known_.size(), 0);
     for (std::uint32_t i = 0; i < known_.size(); ++i)
-      history.drawn[i] = std::ranges::binary_search(history.drawnIds, known_[i].id) ? 1 : 0;
+      history.drawn[i] = std::ranges::binary_search(history.drawnIds, keys_[i].id) ? 1 : 0;
   }
 
   // A complete view needs every relevant caster; one without those out of view, what this camera needs.
@@ -218,7 +233,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   // Then none can be dropped.
   const bool allVisible = input.receiversUnknown || frontToBack_.size() == largestFirst_.size();
   if ((dynamic || history.reduced) && !allVisible) {
-    history.toVisible.update(input, light, history.relevant, visible_, largestFirst_);
+    history.toVisible.update(input, keys_, light, history.relevant, visible_, largestFirst_);
     neededInView.resize(known_.size());
     for (std::uint32_t i = 0; i < known_.size(); ++i)
       neededInView[i] = history.toVisible.canShadow(i) ? 1 : 0;
@@ -233,7 +248,14 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   if (complete) needed = &history.relevant;
   bool anyOutOfView = false;
   std::uint64_t key = lightKey;
-  for (std::uint32_t i = 0; i < known_.size(); ++i) {
+  // All that is needed, as in the frame before: mostly so, though one of them moved.
+  const bool sameDrawn = !cached && needed == &history.relevant && !objectsListed_ &&
+                         history.drawn == history.relevant && !history.casters.empty();
+  if (sameDrawn) {
+    plan.casters = history.casters;
+    for (const std::uint32_t i : plan.casters) key += known_[i].key;
+  }
+  for (std::uint32_t i = 0; i < known_.size() && !sameDrawn; ++i) {
     const bool drawn = cached ? casters_[i] && history.drawn[i] : isNeeded(i);
     if (drawn) {
       plan.casters.push_back(i);
@@ -255,8 +277,10 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   history.lightRevision = lightRevision;
   history.castersRevision = castersRevision_;
   history.key = plan.contentKey;
+  if (sameDrawn) return plan;
+  history.casters = plan.casters;
   history.drawnIds.clear();
-  for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(known_[caster].id);
+  for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(keys_[caster].id);
   if (!std::ranges::is_sorted(history.drawnIds)) std::ranges::sort(history.drawnIds);
   return plan;
 }

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -34,8 +35,18 @@ struct PlannedObject {
   glm::dmat4 worldFromObject{1.0};
 };
 
+/// What tells an object from others and from itself at another time; apart from the object, so that looking
+/// through all touches little memory.
+struct ObjectKey {
+  std::uint32_t id = 0;
+  std::uint64_t revision = 0;
+};
+
 struct FrameInput {
   std::span<const PlannedObject> objects;
+  /// Where the caller knows: those of the objects, by index, that may have another revision than when the
+  /// planner was last asked, of the same list otherwise. Then it looks at no other.
+  std::optional<std::span<const std::uint32_t>> changed{};
   const scene::Camera* camera = nullptr;
   double aspectWidthOverHeight = 1.0;
   std::span<const scene::AreaLight> lights;
@@ -84,9 +95,8 @@ class FramePlanner {
   struct LightHistory;
   /// An object as it was when the frame before was planned.
   struct Known {
-    std::uint32_t id = 0;
-    bool visible = false;  ///< it receives, in view
-    std::uint64_t revision = 0, key = 0;
+    std::uint64_t key = 0;  ///< of it and its roles; 0: not looked at yet
+    bool casts = false;
   };
   /// A visible receiver and where it may begin, seen from the eye.
   struct Placed {
@@ -95,6 +105,8 @@ class FramePlanner {
     auto operator<=>(const Placed&) const = default;
   };
   void observe(const FrameInput& input);
+  /// Places of the objects that are different.
+  std::vector<std::uint32_t> movedObjects(const FrameInput& input);
   void listObjects(const FrameInput& input);
   void place(const FrameInput& input, const glm::dmat4& clipFromWorld, std::uint32_t object);
   void listReceivers(const FrameInput& input, FramePlan& plan) const;
@@ -103,6 +115,7 @@ class FramePlanner {
                       std::vector<Skip>& skips);
 
   std::uint64_t cameraKey_ = 0;
+  std::vector<ObjectKey> keys_;
   std::vector<Known> known_;
   std::vector<char> casters_, receivers_, visible_;  ///< by object: whether it is one
   std::vector<std::uint32_t> largestFirst_;          ///< receivers, the likeliest to be shadowed first

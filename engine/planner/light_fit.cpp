@@ -156,8 +156,11 @@ void LightFitter::measure(std::span<const CasterShape> casters) {
   for (; same < common && extents_[same].id == casters[same].id; ++same) {
     if (extents_[same].revision == casters[same].revision) continue;
     extents_[same] = extentOf(casters[same]);
+    totals_.changed(same);
     ++castersMeasured_;
   }
+  if (same == extents_.size() && same == casters.size()) return;
+  totals_.forget();
   before_.assign(extents_.begin() + static_cast<std::ptrdiff_t>(same), extents_.end());
   extents_.resize(same);
   auto known = before_.begin();
@@ -173,11 +176,18 @@ void LightFitter::measure(std::span<const CasterShape> casters) {
   }
 }
 
-/// Of all points where all casters lie before the light, else (`cut`) of their part beyond the near distance.
-/// Points are not joined to triangles, so a point behind the light may belong to any of them: wherever a
-/// caster is cut, it is cut inside the box of all points. See LightFitOptions::centerSpread.
-void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
-                              double alignedDistance, glm::dvec2& low, glm::dvec2& high) const {
+template <typename Part>
+void LightFitter::Total::include(const Part& part) {
+  nearest = std::min(nearest, part.nearest), farthest = std::max(farthest, part.farthest);
+  tangentLow = glm::min(tangentLow, part.tangentLow), tangentHigh = glm::max(tangentHigh, part.tangentHigh);
+  nearLight = nearLight || part.nearLight;
+}
+
+/// Where casters reach behind the near distance: of their part beyond it. Points are not joined to triangles,
+/// so a point behind the light may belong to any of them: wherever a caster is cut, it is cut inside the box
+/// of all points. See LightFitOptions::centerSpread.
+void LightFitter::fitCutTangents(std::span<const CasterShape> casters, double nearDistance, glm::dvec2& low,
+                                 glm::dvec2& high) const {
   const auto include = [&](const glm::dvec2& side, double z) {
     low = glm::min(low, (side - centerSpread_) / z), high = glm::max(high, (side + centerSpread_) / z);
   };
@@ -186,7 +196,7 @@ void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, do
   for (std::size_t i = 0; i < extents_.size(); ++i) {
     const Extent& extent = extents_[i];
     boxLow = glm::min(boxLow, extent.low), boxHigh = glm::max(boxHigh, extent.high);
-    if (!cut || extent.nearest >= nearDistance) {
+    if (extent.nearest >= nearDistance) {
       low = glm::min(low, extent.tangentLow), high = glm::max(high, extent.tangentHigh);
       continue;
     }
@@ -198,8 +208,6 @@ void LightFitter::fitTangents(std::span<const CasterShape> casters, bool cut, do
   }
   if (anyCut) include(boxLow, nearDistance);
   if (anyCut) include(boxHigh, nearDistance);
-  // Nothing lies beyond the distance where all centres agree.
-  low += centerSpread_ / alignedDistance, high -= centerSpread_ / alignedDistance;
 }
 
 LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
@@ -209,21 +217,19 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   if (!sameSpace(space, space_) || nearLightDistance != nearLightDistance_ ||
       options.centerSpread != centerSpread_) {
     extents_.clear();
+    totals_.forget();
   }
   centerSpread_ = options.centerSpread;
   space_ = space;
   nearLightDistance_ = nearLightDistance;
   measure(casters);
   LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
-  double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
-  for (const Extent& extent : extents_) {
-    nearest = std::min(nearest, extent.nearest), farthest = std::max(farthest, extent.farthest);
-    fit.casterNearLight = fit.casterNearLight || extent.nearLight;
-  }
-  if (!(farthest > 0.0)) {
-    fit.casterNearLight = false;
-    return fit;
-  }
+  const Total total = totals_.total(
+      extents_.size(), [&](Total& part, std::size_t place) { part.include(extents_[place]); },
+      [](Total& all, const Total& part) { all.include(part); });
+  const double nearest = total.nearest, farthest = total.farthest;
+  if (!(farthest > 0.0)) return fit;
+  fit.casterNearLight = total.nearLight;
   const DepthRange depth = fitDepth(std::max(nearest, 0.0), farthest, options.minNearShare);
   fit.nearDistance = depth.nearDistance;
   fit.farDistance = depth.farDistance;
@@ -232,8 +238,13 @@ LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterS
   fit.farthestCaster = farthest;
   fit.castersBeforeNear = nearest < depth.nearDistance;
   fit.castersCrossPlane = !(nearest > 0.0);
-  glm::dvec2 low(std::numeric_limits<double>::infinity()), high = -low;
-  fitTangents(casters, fit.castersCrossPlane, depth.nearDistance, fit.alignedDistance, low, high);
+  glm::dvec2 low = total.tangentLow, high = total.tangentHigh;
+  if (fit.castersCrossPlane) {
+    low = glm::dvec2(std::numeric_limits<double>::infinity()), high = -low;
+    fitCutTangents(casters, depth.nearDistance, low, high);
+  }
+  // Nothing lies beyond the distance where all centres agree.
+  low += centerSpread_ / fit.alignedDistance, high -= centerSpread_ / fit.alignedDistance;
   const glm::dvec2 most(options.maxTangent);
   if (glm::any(glm::greaterThan(low, most)) || glm::any(glm::lessThan(high, -most))) return fit;
   low = glm::max(low, -most), high = glm::min(high, most);

@@ -7,9 +7,11 @@
 
 #include <cstdint>
 #include <glm/glm.hpp>
+#include <limits>
 #include <span>
 #include <vector>
 
+#include "base/block_fold.hpp"
 #include "planner/light_space.hpp"
 #include "scene/bounds.hpp"
 #include "scene/light.hpp"
@@ -95,16 +97,26 @@ class LightFitter {
     glm::dvec2 tangentLow{0.0}, tangentHigh{0.0};  ///< where all of it lies before the light
     bool nearLight = false;
   };
+  /// Of all casters.
+  struct Total {
+    double nearest = std::numeric_limits<double>::infinity(), farthest = 0.0;
+    glm::dvec2 tangentLow{std::numeric_limits<double>::infinity()};
+    glm::dvec2 tangentHigh{-std::numeric_limits<double>::infinity()};
+    bool nearLight = false;
+    template <typename Part>
+    void include(const Part& part);
+  };
   Extent extentOf(const CasterShape& caster) const;
   void measure(std::span<const CasterShape> casters);
-  void fitTangents(std::span<const CasterShape> casters, bool cut, double nearDistance,
-                   double alignedDistance, glm::dvec2& low, glm::dvec2& high) const;
+  void fitCutTangents(std::span<const CasterShape> casters, double nearDistance, glm::dvec2& low,
+                      glm::dvec2& high) const;
 
   LightSpace space_;
   double nearLightDistance_ = 0.0;
   glm::dvec2 centerSpread_{0.0};
   std::vector<Extent> extents_;  ///< of the casters in their order
   std::vector<Extent> before_;   ///< of the frame before, while they are sorted in
+  BlockFold<Total> totals_;      ///< of `extents_`
   std::uint64_t castersMeasured_ = 0;
 };
 

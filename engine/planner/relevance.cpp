@@ -7,14 +7,13 @@
 namespace halfshadow::planner {
 
 /// Takes over what the objects are now: `fresh_`, and verdicts that rest on what is no more.
-void Relevance::forgetChanged(const FrameInput& input, const std::vector<char>& receivers) {
-  const std::size_t count = input.objects.size();
+void Relevance::forgetChanged(std::span<const ObjectKey> keys, const std::vector<char>& receivers) {
+  const std::size_t count = keys.size();
   fresh_.assign(count, 0);
   freshReceivers_.clear();
   for (std::uint32_t i = 0; i < count; ++i) {
-    const PlannedObject& object = input.objects[i];
     Known& known = known_[i];
-    const bool moved = known.revision != object.revision;
+    const bool moved = known.revision != keys[i].revision;
     if (receivers[i] && (moved || !known.receives)) {
       fresh_[i] = 1;
       freshReceivers_.push_back(i);
@@ -25,7 +24,7 @@ void Relevance::forgetChanged(const FrameInput& input, const std::vector<char>& 
       // Not the witness of anyone until it is asked.
       known.receives = false;
     }
-    known.revision = object.revision;
+    known.revision = keys[i].revision;
   }
   for (Verdict& verdict : verdicts_) {
     const bool rests = verdict.kind != Verdict::Kind::canShadow ||
@@ -78,11 +77,12 @@ Relevance::Verdict Relevance::searched(const FrameInput& input, std::uint32_t ca
   return verdict;
 }
 
-void Relevance::update(const FrameInput& input, std::size_t light, const std::vector<char>& casters,
-                       const std::vector<char>& receivers, std::span<const std::uint32_t> likelyFirst) {
+void Relevance::update(const FrameInput& input, std::span<const ObjectKey> keys, std::size_t light,
+                       const std::vector<char>& casters, const std::vector<char>& receivers,
+                       std::span<const std::uint32_t> likelyFirst) {
   const std::size_t count = input.objects.size();
   const std::uint64_t lightRevision = lightRevisionOf(input, light);
-  const bool sameObjects = std::ranges::equal(input.objects, known_, {}, &PlannedObject::id, &Known::id);
+  const bool sameObjects = std::ranges::equal(keys, known_, {}, &ObjectKey::id, &Known::id);
   const bool anew = !sameObjects || lightRevision != lightRevision_;
   light_ = input.lights[light];
   space_ = lightSpace(light_);
@@ -91,9 +91,9 @@ void Relevance::update(const FrameInput& input, std::size_t light, const std::ve
   if (anew) {
     verdicts_.assign(count, {});
     known_.resize(count);
-    for (std::size_t i = 0; i < count; ++i) known_[i] = {.id = input.objects[i].id};
+    for (std::size_t i = 0; i < count; ++i) known_[i] = {.id = keys[i].id};
   }
-  forgetChanged(input, receivers);
+  forgetChanged(keys, receivers);
   askAgainByCamera(input);
   changed_ = couldShadow_.size() != count;
   couldShadow_.resize(count, 0);

@@ -20,10 +20,11 @@ namespace halfshadow::planner {
 /// moves.
 class Relevance {
  public:
-  /// `casters` and `receivers`: of the objects, by index. Receivers are tried in the order of `likelyFirst`,
-  /// which names all of them.
-  void update(const FrameInput& input, std::size_t light, const std::vector<char>& casters,
-              const std::vector<char>& receivers, std::span<const std::uint32_t> likelyFirst);
+  /// `keys`, `casters` and `receivers`: of the objects, by index. Receivers are tried in the order of
+  /// `likelyFirst`, which names all of them.
+  void update(const FrameInput& input, std::span<const ObjectKey> keys, std::size_t light,
+              const std::vector<char>& casters, const std::vector<char>& receivers,
+              std::span<const std::uint32_t> likelyFirst);
   /// The last update found another answer for some caster.
   bool changed() const { return changed_; }
   bool canShadow(std::uint32_t caster) const { return verdicts_[caster].kind == Verdict::Kind::canShadow; }
@@ -47,7 +48,7 @@ class Relevance {
     std::uint64_t revision = 0;
     bool receives = false;  ///< was in the set
   };
-  void forgetChanged(const FrameInput& input, const std::vector<char>& receivers);
+  void forgetChanged(std::span<const ObjectKey> keys, const std::vector<char>& receivers);
   void askAgainByCamera(const FrameInput& input);
   bool meets(const FrameInput& input, std::uint32_t caster, std::uint32_t receiver, SkipReason& reason);
   Verdict searched(const FrameInput& input, std::uint32_t caster, const std::vector<char>& receivers,

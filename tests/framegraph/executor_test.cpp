@@ -112,6 +112,50 @@ void addDrawingPass(Graph& graph, const std::string& name, PassStage stage, std:
 const glm::vec4 kRed(1, 0, 0, 1), kGreen(0, 1, 0, 1);
 const Rgba kRedBytes{255, 0, 0, 255}, kBlueBytes{0, 0, 255, 255}, kGreenBytes{0, 255, 0, 255};
 
+TEST_F(ExecutorTest, UpdatesClearTheirPartsAlone) {
+  const auto graphOf = [&](std::uint64_t key, std::uint64_t fromKey, std::vector<Rect> parts,
+                           std::function<void(PassContext&)> execute) {
+    Graph graph;
+    const ResourceId map = colorTexture(graph, "map", Lifetime::persistent);
+    Attachment write = colorOf(map);
+    write.clear.color[1] = write.clear.color[3] = 1.0f;
+    graph.addPass({.name = "casters",
+                   .stage = PassStage::light,
+                   .writes = {write},
+                   .contentKey = key,
+                   .update = {.fromKey = fromKey, .parts = std::move(parts)},
+                   .execute = std::move(execute)});
+    graph.markOutput(map);
+    return graph;
+  };
+  bool updates = true;
+  runs(graphOf(1, 0, {}, [&](PassContext& pass) {
+    updates = pass.updates;
+    filling(kRed)(pass);
+  }));
+  EXPECT_FALSE(updates);
+  const Graph update =
+      graphOf(2, 1, {{2, 2, 4, 4}, {10, 10, 1, 1}}, [&](PassContext& pass) { updates = pass.updates; });
+  const std::vector<PassReport> reports = runs(update);
+  EXPECT_TRUE(updates);
+  EXPECT_EQ(reports[0].counters.clears, 2u);
+  const ResourceId map{0};
+  EXPECT_EQ(pixelOf(update, map, 2, 2), kGreenBytes);
+  EXPECT_EQ(pixelOf(update, map, 5, 5), kGreenBytes);
+  EXPECT_EQ(pixelOf(update, map, 10, 10), kGreenBytes);
+  EXPECT_EQ(pixelOf(update, map, 6, 5), kRedBytes);
+  EXPECT_EQ(pixelOf(update, map, 11, 10), kRedBytes);
+  // Where nothing lies in the map that is different, nothing of it is.
+  const Graph same = graphOf(3, 2, {}, [&](PassContext& pass) { updates = pass.updates; });
+  EXPECT_EQ(runs(same)[0].counters.clears, 0u);
+  EXPECT_EQ(pixelOf(same, map, 6, 5), kRedBytes);
+  // Of what has gone there is no update.
+  executor->trim(0);
+  runs(graphOf(4, 3, {{2, 2, 4, 4}}, [&](PassContext& pass) { updates = pass.updates; }));
+  EXPECT_FALSE(updates);
+  EXPECT_EQ(pixelOf(same, map, 30, 30), kGreenBytes);
+}
+
 TEST_F(ExecutorTest, DrawsReadsAndReports) {
   Graph graph;
   const ResourceId a = colorTexture(graph, "a"), b = colorTexture(graph, "b"),

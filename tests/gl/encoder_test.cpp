@@ -106,11 +106,12 @@ TEST_F(Encoding, FullClearsIgnoreMasksAndScissorOfEarlierDraws) {
 TEST_F(Encoding, ScissoredClearsStayInside) {
   begin({.color = kBlack});
   encoder_->endPass({});
-  encoder_->beginPass({.framebuffer = &target_,
-                       .viewport = kAll,
-                       .clear = {.color = kRed},
-                       .clearScissor = gl::Rect{1, 1, 2, 1}});
+  const gl::Rect parts[] = {{1, 1, 2, 1}, {3, 3, 1, 1}};
+  encoder_->beginPass(
+      {.framebuffer = &target_, .viewport = kAll, .clear = {.color = kRed}, .clearParts = parts});
   encoder_->endPass({});
+  EXPECT_EQ(pixel(3, 3), (Rgba{255, 0, 0, 255}));
+  EXPECT_EQ(pixel(2, 3), (Rgba{0, 0, 0, 255}));
   EXPECT_EQ(pixel(1, 1), (Rgba{255, 0, 0, 255}));
   EXPECT_EQ(pixel(2, 1), (Rgba{255, 0, 0, 255}));
   EXPECT_EQ(pixel(0, 1), (Rgba{0, 0, 0, 255}));

@@ -237,8 +237,10 @@ struct Field {
     objects[object].boundsWorld.low += by, objects[object].boundsWorld.high += by;
     objects[object].revision = ++lastRevision;
   }
-  FramePlan plan(FramePlanner& planner) const {
+  FramePlan plan(FramePlanner& planner,
+                 std::optional<std::span<const std::uint32_t>> changed = std::nullopt) const {
     return planner.plan({.objects = objects,
+                         .changed = changed,
                          .camera = &camera,
                          .lights = {&light, 1},
                          .lightRevisions = {&lightRevision, 1}});
@@ -299,6 +301,34 @@ TEST(FramePlanner, KeptAnswersAreThoseOfAFreshPlanner) {
       EXPECT_TRUE(drawn || hasSkip(plan, skipName(dropped), SkipReason::shadowOutOfView)) << frame;
     }
   }
+}
+
+// Who is told what changed plans as who looks at everything, whether or not more is named than did.
+TEST(FramePlanner, WhatItIsToldChangesNoPlan) {
+  std::mt19937 random(5);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  Field field(6);
+  FramePlanner told, looking;
+  for (int frame = 0; frame < 200; ++frame) {
+    Indices changed;
+    const bool listed = frame == 0 || frame % 41 == 0;
+    if (frame > 0 && listed) field.objects.erase(field.objects.begin() + frame % 7);
+    for (int i = 0; i < frame % 4; ++i) {
+      const auto object = static_cast<std::uint32_t>(random() % field.objects.size());
+      if (i < 2) field.move(object, glm::dvec3(unit(random), unit(random), unit(random)));
+      changed.push_back(object);
+    }
+    if (frame % 13 == 0) field.camera.eyeWorld += 4.0 * glm::dvec3(unit(random), 0.0, unit(random));
+    const FramePlan a =
+        listed ? field.plan(told) : field.plan(told, std::optional<std::span<const std::uint32_t>>(changed));
+    const FramePlan b = field.plan(looking);
+    EXPECT_EQ(a.receivers, b.receivers) << frame;
+    EXPECT_EQ(a.sceneRevision, b.sceneRevision) << frame;
+    EXPECT_EQ(a.lights[0].casters, b.lights[0].casters) << frame;
+    EXPECT_EQ(a.lights[0].contentKey, b.lights[0].contentKey) << frame;
+    EXPECT_EQ(a.skips.size(), b.skips.size()) << frame;
+  }
+  EXPECT_EQ(told.pairsAsked(), looking.pairsAsked());
 }
 
 TEST(FramePlanner, ALightKeepsItsViewWhenOthersGo) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <memory>
 #include <random>
 #include <vector>
 
@@ -270,6 +271,43 @@ TEST(LightFit, OnlyWhatMovedIsMeasured) {
   EXPECT_EQ(fitter.castersMeasured(), 21u) << "one left, the others stayed";
   fitter.fit(lightAbove({9, 12.1, 0}, 1.0), casters, {});
   EXPECT_EQ(fitter.castersMeasured(), 21u + 19u) << "the light moved";
+}
+
+// Totals of blocks of casters are kept, too.
+TEST(LightFit, OfManyCastersIsThatOfAFreshFitter) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(-1, 1);
+  std::vector<std::shared_ptr<Points>> points;
+  std::vector<CasterShape> casters;
+  std::uint64_t revision = 0;
+  const auto place = [&](std::size_t i) {
+    const double far = random() % 8 == 0 ? 30.0 : 10.0;
+    // Now and then one reaches to the light and behind it.
+    const glm::dvec3 at(far * unit(random), random() % 64 == 0 ? 12.0 : unit(random), far * unit(random));
+    points[i] = std::make_shared<Points>(boxPoints(at, glm::dvec3(0.5)));
+    casters[i].pointsWorld = *points[i];
+    casters[i].revision = ++revision;
+  };
+  for (std::size_t i = 0; i < 300; ++i) {
+    points.emplace_back(), casters.push_back({.id = i + 1});
+    place(i);
+  }
+  const scene::AreaLight light = lightAbove({0, 12, 0}, 1.0);
+  LightFitter kept;
+  for (int frame = 0; frame < 200; ++frame) {
+    for (int i = 0; i < frame % 3; ++i) place(random() % casters.size());
+    if (frame % 17 == 0) {
+      const auto gone = static_cast<std::ptrdiff_t>(random() % casters.size());
+      points.erase(points.begin() + gone), casters.erase(casters.begin() + gone);
+    }
+    const LightFit fit = kept.fit(light, casters, {}), fresh = fitLight(light, casters, {});
+    ASSERT_EQ(fit.tangentLow, fresh.tangentLow) << frame;
+    ASSERT_EQ(fit.tangentHigh, fresh.tangentHigh) << frame;
+    ASSERT_EQ(fit.nearDistance, fresh.nearDistance) << frame;
+    ASSERT_EQ(fit.farthestCaster, fresh.farthestCaster) << frame;
+    ASSERT_EQ(fit.nearestCaster, fresh.nearestCaster) << frame;
+    ASSERT_EQ(fit.castersCrossPlane, fresh.castersCrossPlane) << frame;
+  }
 }
 
 TEST(LightFit, OnePointStillMakesAView) {

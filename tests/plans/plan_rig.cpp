@@ -63,6 +63,7 @@ void PlanRig::moveLight() {
 techniques::DrawItem PlanRig::itemOf(const Object& object) const {
   const scene::TriangleMesh& mesh = *object.source.mesh;
   return {.object = object.id,
+          .revision = object.revision,
           .mesh = reinterpret_cast<const techniques::GpuMesh*>(&object),  // its address tells meshes apart
           .casts = object.source.casts,
           .receives = object.source.receives,
@@ -72,8 +73,7 @@ techniques::DrawItem PlanRig::itemOf(const Object& object) const {
           .mirrored = glm::determinant(glm::dmat3(object.source.worldFromObject)) < 0,
           .facetStream = techniques::needsFacetStream(capabilities_),
           .sourceMesh = &mesh,
-          .geometry = &object.geometry,
-          .revision = object.revision};
+          .geometry = &object.geometry};
 }
 
 const techniques::LightScene& PlanRig::prepare(int channel) {

@@ -183,6 +183,9 @@ struct FrameReport {
   std::uint64_t memoryBytes = 0;  ///< of textures, renderbuffers and buffers that the engine holds
   /// Casters whose silhouette was found anew, once for each point of a light that the technique sees it from.
   std::uint64_t silhouettesExtracted = 0;
+  /// Casters drawn into maps and slices, once for each that they are drawn into; and those which such maps
+  /// held and kept, where only a part was drawn again in which others moved (setting map_updates).
+  std::uint64_t castersDrawn = 0, castersKept = 0;
   const char* planText = "";  ///< passes, attachments and bytes as a table
   const char* planGraphviz = "";
 };

@@ -28,6 +28,8 @@ enum class MeshExtras { none, alpha };
 /// One object placed in the world, as passes draw it.
 struct DrawItem {
   std::uint64_t object = 0;  ///< its id in the scene
+  std::uint64_t revision =
+      0;  ///< of mesh and transform; beside the id: lists are compared by both each frame
   const GpuMesh* mesh = nullptr;
   bool casts = true;  ///< of receivers: it is among the casters of some light in this frame
   bool receives = true;
@@ -45,7 +47,6 @@ struct DrawItem {
   bool facetStream = false;  ///< its mesh has one: MeshStreams::facet may be drawn
   const scene::TriangleMesh* sourceMesh = nullptr;
   const scene::CasterGeometry* geometry = nullptr;
-  std::uint64_t revision = 0;  ///< of mesh and transform
   /// Adjacency, for silhouettes; built on the first call.
   const scene::HalfEdgeMesh& halfEdges() const { return geometry->halfEdges(*sourceMesh); }
 };

@@ -89,6 +89,15 @@ std::vector<SettingInfo> commonSettings() {
        {"nbuffer", "sat"},
        "what occlusion-textures.filter=auto means: the cheaper of the two accurate prefilters; device "
        "profiles set it"},
+      {"map_updates",
+       SettingType::choice,
+       "auto",
+       0,
+       0,
+       {"auto", "always", "never"},
+       "whether maps and slices in which some casters moved are drawn again in that part alone; auto: where "
+       "that saves more draws than loading the rest takes a GPU that renders by tiles; the picture is the "
+       "same; device profiles set it"},
       {"wedge_route",
        SettingType::choice,
        "gather",

@@ -74,9 +74,11 @@ void drawReadBack(framegraph::PassContext& context, gl::Program& program, const 
 }
 }  // namespace
 
-Status LightPasses::prepare(const LightScene& scene) {
+Status LightPasses::prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys) {
   plan_ = {};
-  return planner_->plan(scene, plan_);
+  if (Status s = planner_->plan(scene, plan_); !s) return s;
+  updates_.begin(plan_, updateRuleOf(scene.settings), {scene.casters, casterKeys});
+  return {};
 }
 
 Status LightPasses::upload(Device& device) {
@@ -94,13 +96,19 @@ Status LightPasses::link(Device& device) {
   }
   cutting_.clear();
   receivers_.clear();
+  std::span<const DrawItem> looked;
+  std::uint32_t lookedFor = 0;
   for (const PlannedPass& pass : plan_.passes) {
     std::vector<ReceiverProgramSet>& sets = receivers_.emplace_back();
     for (std::size_t i = 0; i < pass.draws.size(); ++i) {
       if (const auto* meshes = std::get_if<MeshDraw>(&pass.draws[i].what)) {
-        for (const DrawItem& item : meshes->items) {
-          if (Status s = linkCutting(device, pass.draws[i].program, item); !s) return s;
-        }
+        const std::uint32_t program = pass.draws[i].program;
+        // Views of one light draw the same items.
+        const bool again = looked.data() == meshes->items.data() && looked.size() == meshes->items.size() &&
+                           lookedFor == program;
+        looked = meshes->items, lookedFor = program;
+        if (again || !device.holes) continue;
+        if (Status s = linkCutting(device, program, meshes->items); !s) return s;
       }
       const auto* receivers = std::get_if<ReceiversDraw>(&pass.draws[i].what);
       if (receivers == nullptr) continue;
@@ -116,16 +124,18 @@ Status LightPasses::link(Device& device) {
   return {};
 }
 
-Status LightPasses::linkCutting(Device& device, std::uint32_t program, const DrawItem& item) {
-  if (item.alphaMask == nullptr) return {};
-  gl::Program*& slot = cutting_[{program, item.vertexColors}];
-  if (slot != nullptr) return {};
-  device::ProgramVariant variant = plan_.programs[program];
-  variant.defines.emplace_back("HS_ALPHA_MASK");
-  if (item.vertexColors) variant.defines.emplace_back("HS_VERTEX_COLORS");
-  auto linked = device.programs.get(variant);
-  if (!linked) return linked.error();
-  slot = *linked;
+Status LightPasses::linkCutting(Device& device, std::uint32_t program, std::span<const DrawItem> items) {
+  for (const DrawItem& item : items) {
+    if (item.alphaMask == nullptr) continue;
+    gl::Program*& slot = cutting_[{program, item.vertexColors}];
+    if (slot != nullptr) continue;
+    device::ProgramVariant variant = plan_.programs[program];
+    variant.defines.emplace_back("HS_ALPHA_MASK");
+    if (item.vertexColors) variant.defines.emplace_back("HS_VERTEX_COLORS");
+    auto linked = device.programs.get(variant);
+    if (!linked) return linked.error();
+    slot = *linked;
+  }
   return {};
 }
 
@@ -209,19 +219,17 @@ void LightPasses::addUses(ProgramUses& uses) const {
       } else if (i == 0 || !usesAlike(draws[i - 1], draw)) {
         uses.add(*programs_[draw.program], draw.state, draw.textures, descOf);
       }
-      if (const auto* meshes = std::get_if<MeshDraw>(&draw.what)) addCuttingUses(uses, draw, *meshes, descOf);
+      if (std::holds_alternative<MeshDraw>(draw.what)) addCuttingUses(uses, draw, descOf);
     }
   }
 }
 
-void LightPasses::addCuttingUses(ProgramUses& uses, const PlannedDraw& draw, const MeshDraw& meshes,
+/// Of whatever draw of the plan has them: link() found them by what is drawn.
+void LightPasses::addCuttingUses(ProgramUses& uses, const PlannedDraw& draw,
                                  const ProgramUses::DescOf& descOf) const {
   for (const bool colored : {false, true}) {
-    const auto cuts = [&](const DrawItem& item) {
-      return item.alphaMask != nullptr && item.vertexColors == colored;
-    };
-    if (std::ranges::any_of(meshes.items, cuts))
-      uses.add(*cutting_.at({draw.program, colored}), draw.state, draw.textures, descOf);
+    const auto linked = cutting_.find({draw.program, colored});
+    if (linked != cutting_.end()) uses.add(*linked->second, draw.state, draw.textures, descOf);
   }
 }
 
@@ -239,7 +247,7 @@ LightPasses::Images LightPasses::declareImages(framegraph::Graph& graph) const {
   return images;
 }
 
-void LightPasses::declarePass(std::size_t index, const Images& images, FramePasses& frame) const {
+void LightPasses::declarePass(std::size_t index, const Images& images, FramePasses& frame) {
   const PlannedPass& planned = plan_.passes[index];
   auto parts = std::make_shared<std::vector<SharedPass::Part>>();
   if (planned.drawsForAllLights) {
@@ -257,6 +265,7 @@ void LightPasses::declarePass(std::size_t index, const Images& images, FramePass
                             .reads = readsOf(planned),
                             .writes = planned.writes,
                             .contentKey = planned.contentKey,
+                            .update = updates_.updateOf(index),
                             .rebindReason = planned.rebindReason};
   for (ResourceId& read : pass.reads) read = placed.of(read);
   for (framegraph::Attachment& write : pass.writes) write.resource = placed.of(write.resource);
@@ -271,7 +280,7 @@ void LightPasses::declarePass(std::size_t index, const Images& images, FramePass
   frame.graph.addPass(std::move(pass));
 }
 
-ReceiverShading LightPasses::declare(FramePasses& frame) const {
+ReceiverShading LightPasses::declare(FramePasses& frame) {
   const Images images = declareImages(frame.graph);
   for (std::size_t i = 0; i < plan_.passes.size(); ++i) declarePass(i, images, frame);
   for (const auto& note : plan_.notes) frame.graph.noteSkipped(note.what, note.why);
@@ -281,7 +290,9 @@ ReceiverShading LightPasses::declare(FramePasses& frame) const {
 }
 
 void LightPasses::run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
-                      framegraph::PassContext& context) const {
+                      framegraph::PassContext& context) {
+  updates_.drawn(pass, context.updates ? MapUpdates::Extent::update : MapUpdates::Extent::whole);
+  if (context.updates) return runUpdate(pass, images, context);
   const std::vector<PlannedDraw>& draws = plan_.passes[pass].draws;
   for (std::size_t i = firstDraw; i < draws.size(); ++i) {
     if (draws[i].viewport) context.encoder.setViewport(*draws[i].viewport);
@@ -293,6 +304,16 @@ void LightPasses::run(std::size_t pass, std::size_t firstDraw, const View& view,
     } else {
       runDraw(draws[i], images, context);
     }
+  }
+}
+
+void LightPasses::runUpdate(std::size_t pass, const Images& images, framegraph::PassContext& context) const {
+  const std::vector<PlannedDraw>& draws = plan_.passes[pass].draws;
+  const std::vector<MapUpdates::DrawPart>& parts = updates_.parts(pass);
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (parts[i].items.empty()) continue;
+    if (draws[i].viewport) context.encoder.setViewport(*draws[i].viewport);
+    drawMeshes(draws[i], std::get<MeshDraw>(draws[i].what), images, context, &parts[i]);
   }
 }
 
@@ -331,11 +352,14 @@ void LightPasses::setUp(gl::Encoder& encoder, gl::Program& program, const Planne
 }
 
 void LightPasses::drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
-                             framegraph::PassContext& context) const {
+                             framegraph::PassContext& context, const MapUpdates::DrawPart* part) const {
   gl::Encoder& encoder = context.encoder;
   gl::DrawState state = draw.state;
+  if (part != nullptr) state.scissor = part->part.rect();
   gl::Program* current = nullptr;
-  for (const DrawItem& item : meshes.items) {
+  const std::size_t count = part != nullptr ? part->items.size() : meshes.items.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const DrawItem& item = meshes.items[part != nullptr ? part->items[i] : i];
     const bool cut = item.alphaMask != nullptr;
     gl::Program& program = cut ? *cutting_.at({draw.program, item.vertexColors}) : *programs_[draw.program];
     if (&program != current) setUp(encoder, program, draw, images, context);

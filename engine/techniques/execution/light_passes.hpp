@@ -13,6 +13,7 @@
 #include "framegraph/executor.hpp"
 #include "gl/program.hpp"
 #include "techniques/core/pass_plan.hpp"
+#include "techniques/execution/map_updates.hpp"
 #include "techniques/execution/program_uses.hpp"
 #include "techniques/execution/receiver_pass.hpp"
 #include "techniques/execution/shared_textures.hpp"
@@ -24,6 +25,7 @@ struct Device {
   gl::Context& context;
   gl::ProgramCache& programs;
   SharedTextures& shared;
+  bool holes = true;  ///< some object of the scene has holes that alpha cuts
 };
 
 class LightPasses;
@@ -32,7 +34,7 @@ class LightPasses;
 struct SharedPass {
   std::string name;
   struct Part {
-    const LightPasses* light = nullptr;
+    LightPasses* light = nullptr;
     std::size_t pass = 0;
     std::vector<framegraph::ResourceId> images;
   };
@@ -51,14 +53,16 @@ class LightPasses {
  public:
   explicit LightPasses(std::unique_ptr<LightPlanner> planner) : planner_(std::move(planner)) {}
 
-  /// CPU only. Errors: those of LightPlanner::plan().
-  Status prepare(const LightScene& scene);
+  /// CPU only. `casterKeys`: of the scene's casters, or none. Errors: those of LightPlanner::plan().
+  Status prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys = {});
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
   /// What the passes draw with. After upload().
   void addUses(ProgramUses& uses) const;
   /// Adds images and passes; they refer to this and to the view until the frame ends.
-  ReceiverShading declare(FramePasses& frame) const;
+  ReceiverShading declare(FramePasses& frame);
+  /// After the frame's passes ran.
+  const MapUpdates::Counts& castersDrawn() const { return updates_.counts(); }
   /// Calls `visit(name, texture)` for each texture of the technique's own.
   template <typename Visit>
   void visitTextures(Visit visit) const {
@@ -81,25 +85,28 @@ class LightPasses {
   Status uploadTextures(Device& device);
   Status uploadBuffers(Device& device);
   Images declareImages(framegraph::Graph& graph) const;
-  void declarePass(std::size_t pass, const Images& images, FramePasses& frame) const;
+  void declarePass(std::size_t pass, const Images& images, FramePasses& frame);
   void run(std::size_t pass, std::size_t firstDraw, const View& view, const Images& images,
-           framegraph::PassContext& context) const;
+           framegraph::PassContext& context);
   void runDraw(const PlannedDraw& draw, const Images& images, framegraph::PassContext& context) const;
+  /// What of the pass is different.
+  void runUpdate(std::size_t pass, const Images& images, framegraph::PassContext& context) const;
   /// Of the variants that cut holes.
-  void addCuttingUses(ProgramUses& uses, const PlannedDraw& draw, const MeshDraw& meshes,
-                      const ProgramUses::DescOf& descOf) const;
-  /// The variant that cuts holes of one of the plan's programs that draws such an item.
-  Status linkCutting(Device& device, std::uint32_t program, const DrawItem& item);
+  void addCuttingUses(ProgramUses& uses, const PlannedDraw& draw, const ProgramUses::DescOf& descOf) const;
+  /// The variants that cut holes of one of the plan's programs that draws such items.
+  Status linkCutting(Device& device, std::uint32_t program, std::span<const DrawItem> items);
   void setUp(gl::Encoder& encoder, gl::Program& program, const PlannedDraw& draw, const Images& images,
              framegraph::PassContext& context) const;
+  /// `part`: what of the items is drawn, and where; null: all.
   void drawMeshes(const PlannedDraw& draw, const MeshDraw& meshes, const Images& images,
-                  framegraph::PassContext& context) const;
+                  framegraph::PassContext& context, const MapUpdates::DrawPart* part = nullptr) const;
   void drawBuffers(gl::Encoder& encoder, const PlannedDraw& draw, const BufferDraw& triangles) const;
 
   std::unique_ptr<LightPlanner> planner_;
   PassPlan plan_;
   std::vector<gl::Program*> programs_;                              ///< by PassPlan::programs
   std::map<std::pair<std::uint32_t, bool>, gl::Program*> cutting_;  ///< the same; with colours of vertices?
+  MapUpdates updates_;
   std::vector<std::vector<ReceiverProgramSet>> receivers_;  ///< by pass and draw; of ReceiversDraw alone
   std::map<std::string, OwnTexture, std::less<>> textures_;
   std::vector<const gl::Texture*> texturesOfPlan_;

@@ -47,6 +47,19 @@ bool isLarge(const SeenBox& seen, const planner::LightFit& fit) {
   const glm::dvec2 map = fit.tangentHigh - fit.tangentLow;
   return extent.x > 0.0 && extent.y > 0.0 && extent.x * extent.y >= kLeastShare * map.x * map.y;
 }
+
+/// False only where isLarge() is: a bound from the ball around the box, for the many that are small.
+bool mayBeLarge(const planner::LightFit& fit, const scene::Bounds& boundsWorld) {
+  const double radius = boundsWorld.radius();
+  const glm::dvec3 center = glm::dvec3(fit.lightFromWorld * glm::dvec4(boundsWorld.center(), 1.0));
+  const double nearest = center.z - radius;
+  if (!(nearest > fit.nearDistance)) return true;
+  const glm::dvec2 extent =
+      2.0 * radius / nearest * (1.0 + glm::abs(glm::dvec2(center)) / (center.z + radius));
+  const glm::dvec2 map = fit.tangentHigh - fit.tangentLow;
+  constexpr double kRounding = 1e-9;
+  return extent.x * extent.y * (1.0 + kRounding) >= kLeastShare * map.x * map.y;
+}
 }  // namespace
 
 glm::dmat4 almostInfinitelyFar(const glm::dmat4& clipFromWorld) {
@@ -58,6 +71,10 @@ glm::dmat4 almostInfinitelyFar(const glm::dmat4& clipFromWorld) {
 
 LastReceivers lastReceivers(const LightScene& scene) {
   LastReceivers last;
+  if (std::ranges::none_of(scene.casters, [&](const DrawItem& caster) {
+        return caster.receives && mayBeLarge(scene.fit(), caster.boundsWorld);
+      }))
+    return last;
   std::vector<SeenBox> seen;
   for (const DrawItem& caster : scene.casters) seen.push_back(seenBox(scene.fit(), caster.boundsWorld));
   std::vector<char> grounds(seen.size(), 0);
