@@ -24,6 +24,17 @@ void appendLoop(Turn turn, LoopScratch& scratch, LightSilhouettes::Caster& caste
 }
 
 /// A caster's silhouette in the light's coordinates, appended.
+/// The largest h of a part's surface.
+float deepestOf(const HalfEdgeMesh& mesh, std::uint32_t part, const AffineMap& lightFromObject) {
+  const CasterPart& own = mesh.parts()[part];
+  double deepest = -1e300;
+  for (const glm::uvec3& face : mesh.faces().subspan(own.firstFace, own.faceCount)) {
+    for (int k = 0; k < 3; ++k)
+      deepest = std::max(deepest, lightFromObject.height(mesh.positions()[face[k]]));
+  }
+  return static_cast<float>(deepest);
+}
+
 void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, const LightPlane& plane,
                   double minHeight, LoopScratch& scratch, LightSilhouettes& result) {
   const glm::dmat3 linear(caster.worldFromObject);
@@ -33,6 +44,8 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
   const AffineMap lightFromObject{plane.axes * linear, plane.fromWorld(originWorld)};
   // Seen from the light counter-clockwise is clockwise in (a, b); a mirrored object turns round once more.
   const Turn turn = glm::determinant(linear) > 0.0 ? Turn::reverse : Turn::keep;
+  std::uint32_t deepestPart = ~0u;
+  float deepest = 0.0f;
   for (const Silhouette::Part& part : silhouette.parts) {
     LightSilhouettes::Caster placed{
         .object = caster.object,
@@ -65,13 +78,10 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
     if (!placed.closed || placed.enclosesLight) {
-      const CasterPart& own = caster.mesh->parts()[part.part];
-      for (const glm::uvec3& face : caster.mesh->faces().subspan(own.firstFace, own.faceCount)) {
-        for (int k = 0; k < 3; ++k) {
-          const double h = lightFromObject(caster.mesh->positions()[face[k]]).z;
-          placed.deepest = std::max(placed.deepest, static_cast<float>(h));
-        }
-      }
+      // The two sides of a sheet follow each other.
+      if (deepestPart != part.part) deepest = deepestOf(*caster.mesh, part.part, lightFromObject);
+      deepestPart = part.part;
+      placed.deepest = std::max(placed.deepest, deepest);
     }
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
   }
