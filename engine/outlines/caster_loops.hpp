@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "outlines/near_loops.hpp"
+#include "outlines/outer_sides.hpp"
 #include "outlines/tangent_space.hpp"
 #include "scene/light_silhouettes.hpp"
 
@@ -80,27 +81,6 @@ SubLightLoops loopsOf(const scene::LightSilhouettes& silhouettes,
                       std::span<const scene::PlacedCaster> casters, const SubLight& light,
                       const ListSpace& space, std::span<const RoomPart> seenInside = {});
 
-/// The four half-planes outside a sub-light as bounds for one receiver set: a vertex E lies beyond the side
-/// x > X w for every receiver when E.t.x - X·E.i > bound, since t and i are linear in E and in P.
-class OuterSides {
- public:
-  OuterSides(const SubLight& light, const TangentBox& receivers);
-  /// Bits 0-3: beyond the right, left, upper, lower side for all receivers.
-  unsigned code(const glm::vec3& ti) const {
-    return (ti.x - right_ * ti.z > rightBound_ ? 1u : 0u) | (ti.x - left_ * ti.z < leftBound_ ? 2u : 0u) |
-           (ti.y - upper_ * ti.z > upperBound_ ? 4u : 0u) | (ti.y - lower_ * ti.z < lowerBound_ ? 8u : 0u);
-  }
-  /// Sides beyond which an edge covers no part of any cell: cells count x from their left side, within their
-  /// rows.
-  static constexpr unsigned kCoversNothing = 2u | 4u | 8u;
-  /// The same for all points of a box at once; 0 when no side has all of it.
-  unsigned code(const glm::vec3& low, const glm::vec3& high) const;
-
- private:
-  float left_, right_, lower_, upper_;
-  float leftBound_, rightBound_, lowerBound_, upperBound_;
-};
-
 enum class Coverage { none, full, partial };
 
 /// Working memory of simplify().
@@ -124,11 +104,14 @@ struct SimplifyScratch {
 /// wholly covered for all of them; `none`: not at all (result empty).
 Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
                   SimplifyScratch& scratch, CasterLoops& result);
+/// `sides`: of the light and the receivers, for all of their casters.
+Coverage simplify(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+                  const OuterSides& sides, SimplifyScratch& scratch, CasterLoops& result);
 
-/// The same from the faces of a caster, for receivers not behind all of it. `facets`:
-/// those that matter, or more.
-Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
-                  const ReceiverSet& receivers, FacetChoice choice, SimplifyScratch& scratch,
-                  CasterLoops& result);
+/// The same from the faces of a caster, for receivers not behind all of it. `facets`: those that matter, or
+/// more; `lights`: of the light's part and each facet.
+Coverage simplify(const NearSurface& surface, std::span<const std::uint32_t> facets, SheetSide side,
+                  const SubLight& light, std::span<const FacetLight> lights, const ReceiverSet& receivers,
+                  const OuterSides& sides, FacetChoice choice, SimplifyScratch& scratch, CasterLoops& result);
 
 }  // namespace halfshadow::outlines

@@ -4,9 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-
-#include "outlines/caster_loops.hpp"
 
 namespace halfshadow::outlines {
 namespace {
@@ -114,21 +111,12 @@ int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverS
   return known.side;
 }
 
-std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
-                                        const SubLight& light, bool turnedAway) {
-  std::vector<std::uint32_t> side;
-  std::ranges::copy_if(facets, std::back_inserter(side),
-                       [&](std::uint32_t f) { return sees(surface.facets[f], light) != turnedAway; });
-  return side;
-}
-
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
                    std::vector<std::uint32_t>& result, std::size_t most) {
   result.clear();
   const OuterSides outer(kWholeLight, receivers);
-  const auto inReach = [&](const auto& what) {
-    return what.high.z > receivers.iLow && outer.code(what.low, what.high) == 0;
-  };
+  const auto inReach = [&](const auto& what) { return isInReach(what.low, what.high, outer, receivers); };
+  if (!inReach(surface)) return;
   for (const NearSurface::Patch& patch : surface.patches) {
     if (!inReach(patch)) continue;
     for (std::uint32_t f = patch.firstFacet; f < patch.firstFacet + patch.facetCount; ++f) {
@@ -138,27 +126,36 @@ void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
   }
 }
 
-void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
-                      const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
-                      std::vector<std::uint32_t>& result) {
+std::vector<FacetLight> facetLights(const NearSurface& surface, const SubLight& light) {
+  std::vector<FacetLight> lights;
+  lights.reserve(surface.facets.size());
+  for (const NearSurface::Facet& facet : surface.facets)
+    lights.push_back({static_cast<std::int8_t>(sideOf(facet.plane, light)), sees(facet, light)});
+  return lights;
+}
+
+void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates, SheetSide side,
+                      const SubLight& light, std::span<const FacetLight> lights, const ReceiverSet& receivers,
+                      const OuterSides& sides, FacetChoice choice, std::vector<std::uint32_t>& result) {
   result.clear();
-  const OuterSides outer(light, receivers.box);
   const bool lightBefore =
       choice == FacetChoice::asReceiversSee && !receivers.patches.empty() && lightIsBefore(receivers, light);
+  const bool towardsOnly =
+      side == SheetSide::towards || (surface.closed && choice == FacetChoice::asLightSees);
   for (const std::uint32_t f : candidates) {
+    const FacetLight& seen = lights[f];
+    if (seen.sees ? side == SheetSide::away : towardsOnly) continue;
     const NearSurface::Facet& facet = surface.facets[f];
-    if (facet.high.z <= receivers.box.iLow || outer.code(facet.low, facet.high) != 0) continue;
+    if (!isInReach(facet.low, facet.high, sides, receivers.box)) continue;
     const auto& v = facet.vertex;
-    if ((outer.code(surface.points[v[0]]) & outer.code(surface.points[v[1]]) &
-         outer.code(surface.points[v[2]])) != 0)
+    if ((sides.code(surface.points[v[0]]) & sides.code(surface.points[v[1]]) &
+         sides.code(surface.points[v[2]])) != 0)
       continue;
-    const int lightSide = sideOf(facet.plane, light);
-    if (surface.closed && choice == FacetChoice::asLightSees && !sees(facet, light)) continue;
     if (lightBefore && behindAll(surface, facet, receivers)) continue;
     const int receiverSide = sideOfReceivers(surface, f, receivers);
     if (receiverSide == kOwnFacet) continue;
     // No ray passes a plane that has both its ends on one side.
-    if (lightSide * receiverSide > 0) continue;
+    if (seen.side * receiverSide > 0) continue;
     if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
     result.push_back(f);
   }
@@ -166,10 +163,14 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
 
 Interior interiorOf(const NearSurface& surface, const TangentBox& receivers) {
   if (!surface.closed || !surface.convex || surface.cut || surface.facets.empty()) return Interior::outside;
+  if (sideOf(surface.facets[surface.separator].plane, receivers) > 0) return Interior::outside;
   bool inside = true;
-  for (const NearSurface::Facet& facet : surface.facets) {
-    const int side = sideOf(facet.plane, receivers);
-    if (side > 0) return Interior::outside;
+  for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
+    const int side = sideOf(surface.facets[f].plane, receivers);
+    if (side > 0) {
+      surface.separator = f;
+      return Interior::outside;
+    }
     inside &= side < 0;
   }
   return inside ? Interior::inside : Interior::unknown;

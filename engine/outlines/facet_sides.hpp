@@ -6,6 +6,7 @@
 #pragma once
 
 #include "outlines/near_surface.hpp"
+#include "outlines/outer_sides.hpp"
 
 namespace halfshadow::outlines {
 
@@ -29,20 +30,34 @@ struct ReceiverSet {
 /// either.
 int lightSideOf(const NearSurface::Facet& facet, const SubLight& light);
 
-/// Those of a sheet's facets that look towards the light's centre, or those that look away.
-std::vector<std::uint32_t> facetsOfSide(const NearSurface& surface, std::span<const std::uint32_t> facets,
-                                        const SubLight& light, bool turnedAway);
+/// Where a part of the light lies of one facet; the same for all receivers.
+struct FacetLight {
+  std::int8_t side = 0;  ///< as lightSideOf() tells
+  bool sees = false;     ///< its centre is on the facet's outer side
+};
+std::vector<FacetLight> facetLights(const NearSurface& surface, const SubLight& light);
+
+/// Which facets of a sheet are meant: those that look towards the centre of the light's part, or away.
+enum class SheetSide { both, towards, away };
 
 /// Facets that can cover some of the light for some receiver in the box, or more; stops when there are more
 /// than `most`. Replaces `result`.
 void facetsInReach(const NearSurface& surface, const TangentBox& receivers,
                    std::vector<std::uint32_t>& result, std::size_t most = ~std::size_t{0});
 
+/// Whether what lies within the bounds can cover some of the light for some of the receivers.
+/// `whole`: of the whole light and them.
+inline bool isInReach(const glm::vec3& low, const glm::vec3& high, const OuterSides& whole,
+                      const TangentBox& receivers) {
+  return high.z > receivers.iLow && whole.code(low, high) == 0;
+}
+
 /// Of `candidates` (facets), those that can cover some of the light's part for some of the receivers.
-/// Replaces `result`.
-void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates,
-                      const SubLight& light, const ReceiverSet& receivers, FacetChoice choice,
-                      std::vector<std::uint32_t>& result);
+/// `lights`: of that part and all of the surface's facets; `sides`: of it and the receivers. Replaces
+/// `result`.
+void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t> candidates, SheetSide side,
+                      const SubLight& light, std::span<const FacetLight> lights, const ReceiverSet& receivers,
+                      const OuterSides& sides, FacetChoice choice, std::vector<std::uint32_t>& result);
 
 /// Where receivers stand of a closed convex surface; `outside` also of one that is not, or was cut.
 enum class Interior { inside, outside, unknown };

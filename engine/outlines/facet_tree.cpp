@@ -3,7 +3,6 @@
 #include "outlines/facet_tree.hpp"
 
 #include <algorithm>
-#include <map>
 #include <span>
 
 #include "outlines/facet_sides.hpp"
@@ -25,7 +24,11 @@ class TreeBuilder {
  public:
   /// `sides`: of each facet, where the light lies, as facetSide() tells.
   TreeBuilder(const NearSurface& surface, std::span<const int> sides, LightSide lightSide)
-      : surface_(surface), sides_(sides), lightSide_(lightSide), memberOf_(surface.facets.size(), 0) {}
+      : surface_(surface), sides_(sides), lightSide_(lightSide), memberOf_(surface.facets.size(), 0) {
+    nextEdge_.resize(surface.points.size());
+    middles_.reserve(surface.facets.size());
+    for (const NearSurface::Facet& facet : surface.facets) middles_.push_back(facet.low + facet.high);
+  }
 
   std::vector<FacetTree> build() {
     std::vector<std::uint32_t> facets;
@@ -37,20 +40,18 @@ class TreeBuilder {
   }
 
  private:
-  glm::vec3 middleOf(std::uint32_t f) const { return surface_.facets[f].low + surface_.facets[f].high; }
-
   /// Halves along the longest side of where the facets' middles are.
   std::size_t split(std::span<std::uint32_t> facets) const {
     glm::vec3 low(1e30f), high(-1e30f);
     for (const std::uint32_t f : facets) {
-      low = glm::min(low, middleOf(f));
-      high = glm::max(high, middleOf(f));
+      low = glm::min(low, middles_[f]);
+      high = glm::max(high, middles_[f]);
     }
     const glm::vec3 size = high - low;
     const int axis = size.x >= size.y ? (size.x >= size.z ? 0 : 2) : (size.y >= size.z ? 1 : 2);
     const std::size_t half = facets.size() / 2;
     std::ranges::nth_element(facets, facets.begin() + static_cast<std::ptrdiff_t>(half), {},
-                             [&](std::uint32_t f) { return middleOf(f)[axis]; });
+                             [&](std::uint32_t f) { return middles_[f][axis]; });
     return half;
   }
 
@@ -104,44 +105,58 @@ class TreeBuilder {
     if (std::ranges::any_of(facets, [&](std::uint32_t f) { return sides_[f] == 0; })) return;
     ++set_;
     for (const std::uint32_t f : facets) memberOf_[f] = set_;
-    next_.clear();
-    std::size_t edges = 0;
+    edges_.clear();
     for (const std::uint32_t f : facets) {
       const NearSurface::Facet& facet = surface_.facets[f];
       for (std::size_t k = 0; k < 3; ++k) {
         if (facet.beyond[k] != kNoFacet && memberOf_[facet.beyond[k]] == set_) continue;
-        next_.emplace(facet.vertex[k], facet.vertex[(k + 1) % 3]);
-        ++edges;
+        edges_.push_back({facet.vertex[k], facet.vertex[(k + 1) % 3]});
       }
     }
+    const std::size_t edges = edges_.size();
     // A loop has three edges or more.
     const std::size_t most = edges + edges / 3;
     if (edges * kContourShare > 3 * facets.size() || contourVertices_ + most > kMostContourVertices) return;
     contourVertices_ += most;
-    // As many edges enter a vertex as leave it: a walk ends where it began.
-    std::vector<std::uint32_t> loop;
-    while (!next_.empty()) {
+    addBoundary(tree);
+  }
+
+  /// As many edges enter a vertex as leave it: a walk ends where it began.
+  void addBoundary(FacetTree& tree) {
+    std::ranges::stable_sort(edges_, {}, &Edge::from);
+    // Of each vertex that edges leave, the next of them that no loop has.
+    for (std::size_t e = edges_.size(); e-- > 0;) nextEdge_[edges_[e].from] = static_cast<std::uint32_t>(e);
+    const auto isLeft = [&](std::uint32_t v) {
+      return nextEdge_[v] < edges_.size() && edges_[nextEdge_[v]].from == v;
+    };
+    std::vector<std::uint32_t>& loop = loop_;
+    for (std::size_t e = 0; e < edges_.size(); ++e) {
+      const std::uint32_t start = edges_[e].from;
+      if (nextEdge_[start] > e) continue;
       loop.clear();
-      const std::uint32_t start = next_.begin()->first;
       std::uint32_t at = start;
       do {
-        const auto taken = next_.find(at);
-        if (taken == next_.end()) break;
+        if (!isLeft(at)) break;
         loop.push_back(at);
-        at = taken->second;
-        next_.erase(taken);
+        at = edges_[nextEdge_[at]++].to;
       } while (at != start);
       if (loop.size() > 2) addLoop(loop, tree);
     }
   }
 
+  struct Edge {
+    std::uint32_t from = 0, to = 0;
+  };
   const NearSurface& surface_;
   std::span<const int> sides_;
   LightSide lightSide_;
+  std::vector<glm::vec3> middles_;       ///< of facets' boxes, doubled
   std::vector<std::uint32_t> memberOf_;  ///< of each facet, the last set that had it
   std::uint32_t set_ = 0;
-  std::size_t contourVertices_ = 0;                   ///< of the tree that is being made
-  std::multimap<std::uint32_t, std::uint32_t> next_;  ///< boundary edges of a set
+  std::size_t contourVertices_ = 0;      ///< of the tree that is being made
+  std::vector<Edge> edges_;              ///< on the boundary of a set
+  std::vector<std::uint32_t> nextEdge_;  ///< in `edges_`, by point
+  std::vector<std::uint32_t> loop_;
   std::vector<FacetTree> trees_;
 };
 }  // namespace

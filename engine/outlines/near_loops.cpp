@@ -3,6 +3,7 @@
 #include "outlines/near_loops.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace halfshadow::outlines {
 namespace {
@@ -12,7 +13,8 @@ constexpr double kFarPatch = 1.25;
 /// Closed loops from directed edges between points.
 class Chain {
  public:
-  Chain(std::size_t points, std::vector<std::int32_t>& first) : first_(first) {
+  Chain(std::size_t points, NearLoopScratch& scratch)
+      : first_(scratch.firstLink), links_(scratch.links), starts_(scratch.starts) {
     if (first_.size() < points) first_.resize(points, -1);
   }
   void add(std::uint32_t from, std::uint32_t to) {
@@ -22,18 +24,22 @@ class Chain {
   }
   /// Appends all loops of three edges and more, and forgets the edges. As many enter a point as leave it, so
   /// that a walk ends where it began.
-  void take(const std::vector<glm::vec3>& points, std::vector<std::vector<glm::vec3>>& loops) {
+  void take(const std::vector<glm::vec3>& points, NearLoops::Loops& loops) {
     for (const std::uint32_t start : starts_) {
       while (first_[start] >= 0) {
-        std::vector<glm::vec3>& loop = loops.emplace_back();
+        const std::size_t before = loops.points.size();
         std::uint32_t at = start;
         do {
-          loop.push_back(points[at]);
-          const Link& taken = links_[static_cast<std::size_t>(first_[at])];
+          loops.points.push_back(points[at]);
+          const NearLoopScratch::Link& taken = links_[static_cast<std::size_t>(first_[at])];
           first_[at] = taken.next;
           at = taken.to;
         } while (at != start);
-        if (loop.size() < 3) loops.pop_back();
+        if (loops.points.size() < before + 3) {
+          loops.points.resize(before);
+        } else {
+          loops.ends.push_back(loops.points.size());
+        }
       }
     }
     starts_.clear();
@@ -41,14 +47,13 @@ class Chain {
   }
 
  private:
-  struct Link {
-    std::uint32_t to = 0;
-    std::int32_t next = -1;
-  };
   std::vector<std::int32_t>& first_;  ///< by point; all -1 between uses
-  std::vector<Link> links_;
-  std::vector<std::uint32_t> starts_;
+  std::vector<NearLoopScratch::Link>& links_;
+  std::vector<std::uint32_t>& starts_;
 };
+
+/// Corners of a facet alone, as a chain of its edges has them.
+constexpr std::array<std::size_t, 3> kOutward{0, 1, 2}, kTurned{1, 0, 2};
 
 /// How a facet enters the lists.
 enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned, kOneSided };
@@ -86,7 +91,7 @@ void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets
   std::vector<std::uint8_t>& roles = scratch.roles;
   if (roles.size() < surface.facets.size()) roles.resize(surface.facets.size(), kAbsent);
   for (const std::uint32_t f : facets) roles[f] = roleOf(surface, f, light, receivers, choice);
-  Chain chain(surface.points.size(), scratch.firstLink);
+  Chain chain(surface.points.size(), scratch);
   enum class Way { outward, turned };
   /// The edges of facet f where no facet of the same kind goes on.
   const auto link = [&](std::uint32_t f, Way way, auto goesOn) {
@@ -108,14 +113,21 @@ void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets
     const std::uint32_t patch = surface.facets[facets[k]].patch;
     std::size_t end = k;
     while (end < facets.size() && surface.facets[facets[end]].patch == patch) ++end;
-    const bool whole = isFar(surface.patches[patch], receivers);
-    const auto takePatch = [&](Role role, Way way, std::vector<std::vector<glm::vec3>>& loops) {
+    // A facet alone has the same loop either way.
+    const bool whole = end - k > 1 && isFar(surface.patches[patch], receivers);
+    const auto takePatch = [&](Role role, Way way, NearLoops::Loops& loops) {
       for (std::size_t m = k; m < end; ++m) {
         if (roles[facets[m]] != role) continue;
-        link(facets[m], way, [&](std::uint32_t f) { return whole && surface.facets[f].patch == patch; });
-        if (!whole) chain.take(surface.points, loops);
+        if (whole) {
+          link(facets[m], way, [&](std::uint32_t f) { return surface.facets[f].patch == patch; });
+          continue;
+        }
+        const std::array<std::uint32_t, 3>& v = surface.facets[facets[m]].vertex;
+        for (const std::size_t corner : way == Way::outward ? kOutward : kTurned)
+          loops.points.push_back(surface.points[v[corner]]);
+        loops.ends.push_back(loops.points.size());
       }
-      chain.take(surface.points, loops);
+      if (whole) chain.take(surface.points, loops);
     };
     takePatch(kAmong, Way::outward, result.among);
     takePatch(kAmongTurned, Way::turned, result.among);

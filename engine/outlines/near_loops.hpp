@@ -13,12 +13,30 @@ namespace halfshadow::outlines {
 /// receivers on their inner side, of which there are some on either: a fragment counts them where what they
 /// cover is positive.
 struct NearLoops {
-  std::vector<std::vector<glm::vec3>> joined, among, oneSided;
+  struct Loops {
+    std::vector<glm::vec3> points;
+    std::vector<std::size_t> ends;  ///< of each loop, in `points`
+    void clear() { points.clear(), ends.clear(); }
+    void forEach(auto&& use) const {
+      std::size_t first = 0;
+      for (const std::size_t end : ends) {
+        use(std::span(points).subspan(first, end - first));
+        first = end;
+      }
+    }
+  };
+  Loops joined, among, oneSided;
 };
 /// Working memory of nearLoops(), for any surface: between uses all links are -1, all roles 0.
 struct NearLoopScratch {
+  struct Link {
+    std::uint32_t to = 0;
+    std::int32_t next = -1;
+  };
   std::vector<std::int32_t> firstLink;  ///< by point
-  std::vector<std::uint8_t> roles;      ///< by facet
+  std::vector<Link> links;
+  std::vector<std::uint32_t> starts;
+  std::vector<std::uint8_t> roles;  ///< by facet
 };
 void nearLoops(const NearSurface& surface, std::span<const std::uint32_t> facets, const SubLight& light,
                const ReceiverSet& receivers, FacetChoice choice, NearLoopScratch& scratch, NearLoops& result);

@@ -108,6 +108,8 @@ class SurfaceMaker {
     const glm::dvec3 cross = glm::cross(at(2) - at(0), at(1) - at(0));
     facet.plane = space_.planeThrough(cross / std::max(glm::length(cross), 1e-300), at(0));
     surface_.facets.push_back(facet);
+    surface_.low = glm::min(surface_.low, facet.low);
+    surface_.high = glm::max(surface_.high, facet.high);
   }
 
   void addPatches() {
@@ -194,10 +196,12 @@ NearSurfaces::NearSurfaces(std::span<const scene::PlacedCaster> casters, const L
 }
 
 const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, Solid solid) {
-  std::unique_ptr<NearSurface>& made =
-      made_[kSolids * (firstPart_[object] + part) + static_cast<std::size_t>(solid)];
-  if (!made)
+  const std::size_t number = kSolids * (firstPart_[object] + part) + static_cast<std::size_t>(solid);
+  std::unique_ptr<NearSurface>& made = made_[number];
+  if (!made) {
     made = std::make_unique<NearSurface>(nearSurface(casters_[object], part, space_, minHeight_, solid));
+    made->number = number;
+  }
   return *made;
 }
 

@@ -49,12 +49,16 @@ struct NearSurface {
   std::vector<Patch> patches;
   std::vector<glm::dvec3> pointsWorld;  ///< the same, relative to the light's centre
   std::vector<Facet> facets;
+  glm::vec3 low{1e30f}, high{-1e30f};  ///< bounds of all, in (t, i)
+  std::size_t number = 0;              ///< among those that one NearSurfaces made or will make
   /// Working memory: on which side of each facet the receivers of a tile lie, asked for by each sub-light.
   struct Side {
     std::uint64_t tile = 0;
     int side = 0;  ///< 1 all outside, -1 all inside, 0 some on either, kOwnFacet
   };
   mutable std::vector<Side> sides;
+  /// Working memory: a facet that some receivers were all outside of. Their neighbours mostly are, too.
+  mutable std::uint32_t separator = 0;
   bool closed = true;   ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
   bool whole = false;   ///< the caster has no other part
@@ -85,6 +89,7 @@ class NearSurfaces {
   /// Of a surface that of() gave; made when first asked for. The reference lasts as long as this object.
   const FacetTrees& treesOf(const NearSurface& surface);
   const ListSpace& space() const { return space_; }
+  std::size_t count() const { return made_.size(); }  ///< NearSurface::number is less
   /// For ReceiverSet::tile.
   std::uint64_t nextTile() { return ++tile_; }
 

@@ -3,9 +3,9 @@
 #include "outlines/tile_lists.hpp"
 
 #include <algorithm>
-#include <map>
 
 #include "outlines/casters_apart.hpp"
+#include "outlines/reached_facets.hpp"
 #include "outlines/tree_calls.hpp"
 
 namespace halfshadow::outlines {
@@ -18,58 +18,65 @@ struct ListScratch {
   SimplifyScratch simplify;
   CasterLoops simplified;
   std::vector<std::uint8_t> taken;
+  /// Of each surface, by its number: the sides of it that the sub-light's entries so far stand for, a bit
+  /// each; and those that have some.
+  std::vector<std::uint8_t> sidesKnown;
+  std::vector<std::size_t> knownSurfaces;
   std::vector<TreeCall> calls;
 };
 
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
-  /// A caster among whose surfaces some receivers of the block stand: its faces that matter there.
+  /// A caster among whose surfaces some receivers of the block stand: its faces matter there.
   struct Near {
     const CasterLoops* caster = nullptr;
     const NearSurface* surface = nullptr;
-    FacetChoice choice = FacetChoice::asLightSees;
-    std::vector<std::uint32_t> facets;    ///< none where another entry of the same surface has them
     const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
-    bool dense = false;                   ///< more facets are in reach than a list should hold
+    float deepest = 0.0f;                 ///< no point of the caster has a smaller i
+    FacetChoice choice = FacetChoice::asLightSees;
+    SheetSide side = SheetSide::both;  ///< of its facets
+    bool known = false;                ///< another entry of the same surface stands for its facets
+    bool dense = false;                ///< more facets are in reach than a list should hold
   };
   struct Partial {
     CasterLoops loops;
     const NearSurface* around = nullptr;  ///< some receivers of the block may stand inside it
   };
-  std::vector<Partial> partial;
+  std::vector<Partial> partials;  ///< with their memory; of this block the first so many
+  std::size_t partialCount = 0;
   std::vector<Near> near;
   bool full = false;
-};
-
-/// Faces in reach of a block, the same for all sub-lights.
-class BlockFacets {
- public:
-  void clear() { facets_.clear(); }
-  std::span<const std::uint32_t> of(const NearSurface& surface, const TangentBox& receivers,
-                                    std::size_t most) {
-    const auto [found, isNew] = facets_.try_emplace(&surface);
-    if (isNew) facetsInReach(surface, receivers, found->second, most);
-    return found->second;
+  std::span<const Partial> partial() const { return std::span(partials).first(partialCount); }
+  void addPartial(CasterLoops& loops, const NearSurface* around) {
+    if (partialCount == partials.size()) partials.emplace_back();
+    std::swap(partials[partialCount].loops, loops);
+    partials[partialCount++].around = around;
   }
-
- private:
-  std::map<const NearSurface*, std::vector<std::uint32_t>> facets_;
+  void clear() {
+    partialCount = 0;
+    near.clear();
+  }
 };
 
 /// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
 /// out; others fragments cut at their own height and need them whole.
-void appendCaster(const CasterLoops& caster, const SubLight& light, const TangentBox& receivers,
+void appendCaster(const CasterLoops& caster, const OuterSides& sides, const TangentBox& receivers,
                   std::uint8_t subLight, ListedEdges edges, std::vector<ListRecord>& records) {
   const std::size_t before = records.size();
-  const OuterSides sides(light, receivers);
   for (const CasterLoops::Loop& loop : caster.loops) {
-    const auto at = [&](std::uint32_t k) { return caster.points[loop.first + k % loop.count]; };
-    bool whole = edges == ListedEdges::all || loop.oneSided;
-    for (std::uint32_t k = 0; k < loop.count; ++k) whole = whole || at(k).z < receivers.iHigh;
+    const std::span<const glm::vec3> points = std::span(caster.points).subspan(loop.first, loop.count);
+    const auto at = [&](std::uint32_t k) -> const glm::vec3& { return points[k == loop.count ? 0 : k]; };
+    const bool whole = edges == ListedEdges::all || loop.oneSided ||
+                       std::ranges::any_of(points, [&](const glm::vec3& p) { return p.z < receivers.iHigh; });
     bool chained = false;
+    unsigned code = whole ? 0 : sides.code(points[0]);
     for (std::uint32_t k = 0; k <= loop.count; ++k) {
-      const bool leads = k < loop.count &&
-                         (whole || !(sides.code(at(k)) & sides.code(at(k + 1)) & OuterSides::kCoversNothing));
+      bool leads = k < loop.count;
+      if (leads && !whole) {
+        const unsigned next = sides.code(at(k + 1));
+        leads = (code & next & OuterSides::kCoversNothing) == 0;
+        code = next;
+      }
       if (chained || leads) {
         records.push_back({.ti = at(k),
                            .subLight = subLight,
@@ -125,49 +132,48 @@ float deepestOf(const CasterLoops& caster) {
   return caster.isRoom ? caster.deepest : std::min(caster.low.z, caster.deepest);
 }
 
-void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets& facets,
+void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, ReachedFacets& facets,
                  const TangentBox& receivers, const ListedReceiver& receiver, ListScratch& scratch,
                  BlockCasters& result) {
   result.full = false;
-  result.partial.clear();
-  result.near.clear();
+  result.clear();
   CasterLoops& simplified = scratch.simplified;
   const OuterSides sides(loops.light, receivers);
   const NearSurface* around = nullptr;
   const auto add = [&](const CasterLoops& caster) {
-    const Coverage coverage = simplify(caster, loops.light, receivers, scratch.simplify, simplified);
-    if (coverage == Coverage::partial) result.partial.push_back({simplified, around});
+    const Coverage coverage = simplify(caster, loops.light, receivers, sides, scratch.simplify, simplified);
+    if (coverage == Coverage::partial) result.addPartial(simplified, around);
     result.full = result.full || coverage == Coverage::full;
   };
   const auto addNear = [&](const CasterLoops& caster, Solid solid) {
     BlockCasters::Near near{.caster = &caster,
                             .surface = &surfaces.of(caster.object, caster.part, solid),
+                            .around = around,
+                            .deepest = deepestOf(caster),
                             .choice = caster.object == receiver.ownObject ? FacetChoice::asReceiversSee
-                                                                          : FacetChoice::asLightSees,
-                            .around = around};
+                                                                          : FacetChoice::asLightSees};
     if (near.surface->facets.empty()) return false;
     const bool isOwn = near.choice == FacetChoice::asReceiversSee;
     const std::size_t most = near.surface->spread ? ~std::size_t{0}
                              : isOwn              ? receiver.mostOwnFacets
                                                   : receiver.mostOthersFacets;
-    const std::span<const std::uint32_t> all = facets.of(*near.surface, receivers, most);
+    const std::span<const std::uint32_t> all = facets.ofBlock(*near.surface, most);
     if (all.empty()) return true;
-    if (all.size() > most) {
-      near.dense = std::ranges::none_of(
-          result.near, [&](const BlockCasters::Near& other) { return other.surface == near.surface; });
-      result.near.push_back(std::move(near));
-      return true;
-    }
+    const bool tooMany = all.size() > most;
     // The two sides of a sheet cover the same ground twice: they are two casters among its surfaces, too.
-    const bool sided = !near.surface->closed && near.choice == FacetChoice::asLightSees;
-    const bool known = std::ranges::any_of(result.near, [&](const BlockCasters::Near& other) {
-      return other.surface == near.surface && (!sided || other.caster->turnedAway == caster.turnedAway);
-    });
-    if (!known && sided) near.facets = facetsOfSide(*near.surface, all, loops.light, caster.turnedAway);
-    if (!known && !sided) near.facets.assign(all.begin(), all.end());
-    result.near.push_back(std::move(near));
+    if (!tooMany && !near.surface->closed && !isOwn)
+      near.side = caster.turnedAway ? SheetSide::away : SheetSide::towards;
+    std::uint8_t& sidesKnown = scratch.sidesKnown[near.surface->number];
+    const auto side = static_cast<std::uint8_t>(1u << static_cast<unsigned>(near.side));
+    if (sidesKnown == 0) scratch.knownSurfaces.push_back(near.surface->number);
+    near.known = tooMany || (sidesKnown & side) != 0;
+    near.dense = tooMany && sidesKnown == 0;
+    sidesKnown |= side;
+    result.near.push_back(near);
     return true;
   };
+  for (const std::size_t number : scratch.knownSurfaces) scratch.sidesKnown[number] = 0;
+  scratch.knownSurfaces.clear();
   std::vector<std::uint8_t>& taken = scratch.taken;
   taken.assign(loops.casters.size(), 0);
   for (const CasterCluster& cluster : loops.clusters) {
@@ -205,51 +211,50 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, BlockFacets
     if (among && sides.code(low, caster.high) != 0) continue;
     if (!among || !addNear(caster, Solid::within)) add(caster);
   }
-  if (result.full) {
-    result.partial.clear();
-    result.near.clear();
-  }
+  if (result.full) result.clear();
 }
 
 TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
                   const ReceiverSet& set, const ListedReceiver& receiver, ListedEdges edges,
-                  NearSurfaces& surfaces, ListScratch& scratch, TileLists& lists) {
+                  NearSurfaces& surfaces, ReachedFacets& reached, ListScratch& scratch, TileLists& lists) {
   std::vector<ListRecord>& records = lists.records;
   const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
   CasterLoops& simplified = scratch.simplified;
   std::vector<TreeCall>& calls = scratch.calls;
   calls.clear();
+  reached.startTile(receivers);
   for (std::size_t s = 0; s < subLights.size(); ++s) {
     const std::size_t before = records.size();
     const auto bit = static_cast<std::uint8_t>(1u << s);
     const SubLightLoops& loops = subLights[s];
+    const OuterSides sides(loops.light, receivers);
     bool full = block[s].full;
     const auto add = [&](Coverage coverage) {
       full = full || coverage == Coverage::full;
       if (coverage != Coverage::partial) return;
-      appendCaster(simplified, loops.light, receivers, static_cast<std::uint8_t>(s), edges, records);
+      appendCaster(simplified, sides, receivers, static_cast<std::uint8_t>(s), edges, records);
       if (list.casters < 255) ++list.casters;
     };
-    for (std::size_t c = 0; c < block[s].partial.size() && !full; ++c) {
-      const BlockCasters::Partial& partial = block[s].partial[c];
+    for (const BlockCasters::Partial& partial : block[s].partial()) {
+      if (full) break;
       const bool inside =
           partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
       add(inside ? Coverage::full
-                 : simplify(partial.loops, loops.light, receivers, scratch.simplify, simplified));
+                 : simplify(partial.loops, loops.light, receivers, sides, scratch.simplify, simplified));
     }
     const NearSurface* treed = nullptr;      // the last surface whose trees are in the list
     const NearSurface* firstSide = nullptr;  // of the sheet whose first side ends with the last record
-    for (std::size_t c = 0; c < block[s].near.size() && !full; ++c) {
-      const auto& [caster, surface, choice, facets, around, dense] = block[s].near[c];
+    for (const auto& [caster, surface, around, deepest, choice, side, known, dense] : block[s].near) {
+      if (full) break;
       const std::size_t own = records.size();
       if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
         full = true;
-      } else if (deepestOf(*caster) >= receivers.iHigh) {
+      } else if (deepest >= receivers.iHigh) {
         full = full || caster->isRoom;
         if (full) break;
         forEachLayer(loops, *caster, [&](const CasterLoops& layer) {
-          if (!full) add(simplify(layer, loops.light, receivers, scratch.simplify, simplified));
+          if (!full) add(simplify(layer, loops.light, receivers, sides, scratch.simplify, simplified));
         });
       } else {
         // Only of its own tiles the patches are known.
@@ -264,12 +269,14 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         }
         const auto leadIntoTrees = [&, walked = surface] {
           treed = walked;
-          callTrees(*walked, bit, calls);
+          if (reached.reachesTile(*walked)) callTrees(*walked, bit, calls);
         };
         if (dense) leadIntoTrees();
-        if (surface == treed) continue;
-        add(simplify(*surface, facets, loops.light,
-                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, choice,
+        if (known || surface == treed) continue;
+        const std::span<const std::uint32_t> facets = reached.ofTile(*surface);
+        if (facets.empty()) continue;
+        add(simplify(*surface, facets, side, loops.light, reached.lightsOf(*surface, s, loops.light),
+                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, sides, choice,
                      scratch.simplify, simplified));
         // The sides of a sheet cover the same ground.
         const bool sided = !surface->closed && !isOwn && records.size() > own;
@@ -312,15 +319,16 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
   TileLists lists;
   lists.tiles.resize(tiles.boxes.size());
   std::vector<BlockCasters> block(subLights.size());
-  BlockFacets facets;
+  ReachedFacets facets(surfaces.count());
   ListScratch scratch;
+  scratch.sidesKnown.resize(surfaces.count());
   for (int y0 = 0; y0 < tiles.rows; y0 += kBlock) {
     for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
       const TangentBox all = blockBox(tiles, x0, y0);
       if (all.empty()) continue;
       lists.cutShort = lists.records.size() > mostRecords;
       if (lists.cutShort) return lists;
-      facets.clear();
+      facets.startBlock(all);
       for (std::size_t s = 0; s < subLights.size(); ++s) {
         simplifyAll(subLights[s], surfaces, facets, all, receiver, scratch, block[s]);
       }
@@ -334,13 +342,14 @@ TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surf
           lists.tiles[tile] =
               tileList(subLights, block,
                        {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
-                       receiver, edges, surfaces, scratch, lists);
+                       receiver, edges, surfaces, facets, scratch, lists);
           lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
           lists.partialTiles += lists.tiles[tile].count > 0;
         }
       }
     }
   }
+  lists.facetTests = facets.facetTests();
   lists.oneSided = std::ranges::any_of(lists.records, &ListRecord::oneSided);
   lists.behindFacets = std::ranges::any_of(
       lists.records, [](const ListRecord& record) { return record.behindFacet != ListRecord::kVertex; });

@@ -59,6 +59,9 @@ struct TileLists {
   std::vector<const FacetTree*> trees;
   bool sides = false;     ///< some record ends a first side
   bool cutShort = false;  ///< there would be too many records: the rest is missing
+  /// What making them cost: how often it was asked whether a facet in reach of a block of tiles is in reach
+  /// of one of these. Once, whatever the number of sub-lights.
+  std::uint64_t facetTests = 0;
 };
 
 /// Which edges of a simplified loop are listed.

@@ -16,6 +16,10 @@ struct AffineMap {
   glm::dmat3 linear{1.0};
   glm::dvec3 offset{0.0};
   glm::dvec3 operator()(const glm::vec3& p) const { return linear * glm::dvec3(p) + offset; }
+  /// The z of that.
+  double height(const glm::vec3& p) const {
+    return linear[0].z * double(p.x) + linear[1].z * double(p.y) + linear[2].z * double(p.z) + offset.z;
+  }
 };
 
 enum class HeightRange { below, through, above };

@@ -36,7 +36,7 @@ class DeepestPoint {
     const CasterPart& own = mesh_.parts()[part];
     for (const glm::uvec3& face : mesh_.faces().subspan(own.firstFace, own.faceCount)) {
       for (int k = 0; k < 3; ++k) {
-        const double h = lightFromObject_(mesh_.positions()[face[k]]).z;
+        const double h = lightFromObject_.height(mesh_.positions()[face[k]]);
         height_ = std::max(height_, static_cast<float>(h));
       }
     }

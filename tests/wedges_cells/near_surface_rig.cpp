@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
 #include <random>
 
 #include "coverage/trapezoid.hpp"
@@ -199,42 +200,73 @@ glm::dvec2 behindCorner(const scene::LightPlane& plane, const glm::dvec3& normal
   return foot + kReach * (corner == 0 ? along : corner == 1 ? inward : -along);
 }
 
-}  // namespace
+/// A surface's lists for its own tiles, and all that they refer to.
+struct OwnLists {
+  scene::TriangleMesh mesh;
+  scene::HalfEdgeMesh halfEdges;
+  scene::PlacedCaster caster;
+  scene::AreaLight area;
+  scene::LightPlane plane;
+  outlines::ListSpace space;
+  std::vector<outlines::SubLightLoops> loops;
+  outlines::NearSurfaces surfaces;
+  outlines::ReceiverTiles tiles;
+  outlines::TileLists lists;
+};
 
-Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed, Origin origin,
-                    Surface surface, std::size_t mostOwnFacets) {
+std::unique_ptr<OwnLists> ownLists(const scene::TriangleMesh& shape, double lightHalf,
+                                   std::span<const outlines::SubLight> lights, Origin origin, Surface surface,
+                                   std::size_t mostOwnFacets) {
+  auto own = std::make_unique<OwnLists>();
   const auto built = scene::buildMesh({.positions = &shape.positions.front().x,
                                        .vertexCount = static_cast<std::uint32_t>(shape.positions.size()),
                                        .indices = shape.indices.data(),
                                        .indexCount = shape.indices.size()});
   EXPECT_TRUE(built.ok());
-  const scene::TriangleMesh& mesh = *built;
-  const scene::HalfEdgeMesh halfEdges = scene::HalfEdgeMesh::build(mesh);
+  own->mesh = *built;
+  own->halfEdges = scene::HalfEdgeMesh::build(own->mesh);
+  own->caster = {.mesh = &own->halfEdges};
   const auto area = scene::areaLightFromVectors({1.0, 5.0, 0.5}, {lightHalf, 0, 0}, {0, 0, lightHalf});
   EXPECT_TRUE(area.ok());
-  const scene::LightPlane plane(*area, 8.0, 1e-4);
-  const scene::PlacedCaster caster{.mesh = &halfEdges};
-  static constexpr auto kQuarters = outlines::subLights();
-  outlines::ListSpace space(plane);
+  own->area = *area;
+  own->plane = scene::LightPlane(own->area, 8.0, 1e-4);
+  own->space = outlines::ListSpace(own->plane);
   if (origin == Origin::caster) {
-    const glm::dvec3 middle = plane.fromWorld(glm::dvec3(0.0));
-    space.originT = glm::dvec2(middle) / middle.z;
-    space.originI = 1.0 / middle.z;
+    const glm::dvec3 middle = own->plane.fromWorld(glm::dvec3(0.0));
+    own->space.originT = glm::dvec2(middle) / middle.z;
+    own->space.originI = 1.0 / middle.z;
   }
-  std::vector<outlines::SubLightLoops> loops;
-  for (const outlines::SubLight& light : kQuarters) {
+  const std::span<const scene::PlacedCaster> casters(&own->caster, 1);
+  for (const outlines::SubLight& light : lights) {
     scene::LightSilhouettes silhouettes;
-    scene::lightSilhouettes({&caster, 1}, plane, light.center.x, light.center.y, 1e-3, silhouettes,
+    scene::lightSilhouettes(casters, own->plane, light.center.x, light.center.y, 1e-3, silhouettes,
                             scene::LayerSplit::alongside);
-    loops.push_back(outlines::loopsOf(silhouettes, {&caster, 1}, light, space));
+    own->loops.push_back(outlines::loopsOf(silhouettes, casters, light, own->space));
   }
-  outlines::NearSurfaces surfaces({&caster, 1}, space, 1e-3);
-  const outlines::ReceiverTiles tiles =
-      receiverTiles({.mesh = &mesh, .closed = surface == Surface::closed, .withPatches = true}, space,
-                    shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
-  const outlines::TileLists lists = tileLists(
-      loops, surfaces, tiles, {.ownObject = 0, .mostOwnFacets = mostOwnFacets}, outlines::ListedEdges::all);
+  own->surfaces = outlines::NearSurfaces(casters, own->space, 1e-3);
+  own->tiles = receiverTiles({.mesh = &own->mesh, .closed = surface == Surface::closed, .withPatches = true},
+                             own->space, shadowedTangents(own->loops, -10.0), 0.05, 64, 1e-3);
+  own->lists = tileLists(own->loops, own->surfaces, own->tiles,
+                         {.ownObject = 0, .mostOwnFacets = mostOwnFacets}, outlines::ListedEdges::all);
+  return own;
+}
+}  // namespace
 
+ListCost ownListCost(const scene::TriangleMesh& shape, double lightHalf,
+                     std::span<const outlines::SubLight> lights) {
+  const std::unique_ptr<OwnLists> own =
+      ownLists(shape, lightHalf, lights, Origin::caster, Surface::closed, ~std::size_t{0});
+  return {.facetTests = own->lists.facetTests,
+          .tiles = own->lists.partialTiles,
+          .facets = own->mesh.indices.size() / 3,
+          .records = own->lists.records.size()};
+}
+
+Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed, Origin origin,
+                    Surface surface, std::size_t mostOwnFacets) {
+  static constexpr auto kQuarters = outlines::subLights();
+  const std::unique_ptr<OwnLists> own = ownLists(shape, lightHalf, kQuarters, origin, surface, mostOwnFacets);
+  const auto& [mesh, halfEdges, caster, area, plane, space, loops, surfaces, tiles, lists] = *own;
   Deviation result{.trees = lists.trees.size(), .longest = lists.longestList};
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
@@ -245,7 +277,7 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     double s = unit(random), t = unit(random);
     if (s + t > 1.0) s = 1.0 - s, t = 1.0 - t;
     const glm::dvec3 place = a + s * (b - a) + t * (c - a);
-    const double height = glm::dot(normal, area->centerWorld - place);
+    const double height = glm::dot(normal, area.centerWorld - place);
     if (surface == Surface::open && height < 0.0) normal = -normal;
     if (surface == Surface::closed && height <= 0.0) continue;
     const glm::dvec3 onSurface = space.tangentPoint(plane.fromWorld(place));

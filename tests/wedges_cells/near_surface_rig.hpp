@@ -26,6 +26,14 @@ struct Deviation {
   std::size_t longest = 0;  ///< records of a list
 };
 
+/// What lists of a surface for its own tiles, seen from `lights`, cost.
+struct ListCost {
+  std::uint64_t facetTests = 0;
+  std::size_t tiles = 0, facets = 0, records = 0;
+};
+ListCost ownListCost(const scene::TriangleMesh& shape, double lightHalf,
+                     std::span<const outlines::SubLight> lights);
+
 /// Where (t, i) are counted from.
 enum class Origin { light, caster };
 

@@ -51,6 +51,23 @@ TEST(NearSurface, OpenSheetsHideFromBothSides) {
   }
 }
 
+TEST(NearSurface, TilesAskAboutAFacetOnceForAllSubLights) {
+  const scene::TriangleMesh ball = bumpyBall(48, 30);
+  const auto quarters = outlines::subLights();
+  const ListCost whole = ownListCost(ball, 1.0, {&outlines::kWholeLight, 1}),
+                 four = ownListCost(ball, 1.0, quarters);
+  std::printf("%zu facets, %zu tiles with lists: %.1f facets asked about per tile, of four sub-lights %.1f\n",
+              four.facets, four.tiles, double(whole.facetTests) / double(whole.tiles),
+              double(four.facetTests) / double(four.tiles));
+  ASSERT_GT(four.tiles, 100u);
+  EXPECT_GT(four.facetTests, 0u);
+  // Whoever is out of reach of the whole light is out of reach of its quarters.
+  EXPECT_LE(four.facetTests, whole.facetTests);
+  // Those in reach of a block of 8 x 8 tiles, not all of them.
+  EXPECT_LT(four.facetTests, four.tiles * four.facets / 2);
+  EXPECT_GT(four.records, whole.records);
+}
+
 TEST(NearSurface, CoarseConvexCastersKnowTheirOwnHorizon) {
   // A plate whose top face's plane cuts the light: seen from some quarters' centres it shows its other side.
   scene::TriangleMesh plate = box({0.8f, 0.6f, 0.02f});

@@ -30,14 +30,6 @@ ListPlacement placementAbout(const glm::vec3& center, glm::vec3 least) {
   return placement;
 }
 
-void putCode(float value, std::uint8_t* texels) {
-  // To the nearest whole number without a call of the library, in double so that no half is lost.
-  const double clamped = std::clamp(value, -32768.0f, 32767.0f);
-  const int code = static_cast<int>(clamped + (clamped < 0.0 ? -0.5 : 0.5)) + 32768;
-  texels[0] = static_cast<std::uint8_t>(code >> 8);
-  texels[1] = static_cast<std::uint8_t>(code & 255);
-}
-
 void encodePlacement(const ListPlacement& placement, std::uint8_t* texels) {
   const glm::vec3 center = placement.center / (kCenterSteps * placement.step);
   for (int k = 0; k < 3; ++k) putCode(center[k], texels + 2 * k);

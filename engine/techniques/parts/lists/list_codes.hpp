@@ -4,6 +4,7 @@
 /// How places in (t, i) stand in records of eight bytes: see EncodedLists.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <glm/glm.hpp>
 
@@ -23,7 +24,13 @@ struct ListPlacement {
 ListPlacement placementAbout(const glm::vec3& center, glm::vec3 least);
 
 /// Two bytes, high first, of the nearest whole number.
-void putCode(float value, std::uint8_t* texels);
+inline void putCode(float value, std::uint8_t* texels) {
+  // To the nearest whole number without a call of the library, in double so that no half is lost.
+  const double clamped = std::clamp(value, -32768.0f, 32767.0f);
+  const int code = static_cast<int>(clamped + (clamped < 0.0 ? -0.5 : 0.5)) + 32768;
+  texels[0] = static_cast<std::uint8_t>(code >> 8);
+  texels[1] = static_cast<std::uint8_t>(code & 255);
+}
 
 /// The record that a list begins with.
 void encodePlacement(const ListPlacement& placement, std::uint8_t* texels);

@@ -35,15 +35,17 @@ struct Range {
 /// than the others, so that neither far casters nor wide receivers make a near vertex coarse.
 EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) {
   float farthest = 1e30f, nearest = -1e30f;
+  bool oneSided = false;
   const auto isVertex = [](const outlines::ListRecord& record) {
     return record.behindFacet == outlines::ListRecord::kVertex;
   };
-  if (std::ranges::none_of(records, isVertex)) return {};
   for (const outlines::ListRecord& record : records) {
     if (!isVertex(record)) continue;
     farthest = std::min(farthest, record.ti.z);
     nearest = std::max(nearest, record.ti.z);
+    oneSided |= record.oneSided;
   }
+  if (farthest > nearest) return {};
   const float fineUpTo = farthest + (nearest - farthest) / kFineReach;
   Range fine;
   for (const outlines::ListRecord& record : records) {
@@ -53,7 +55,7 @@ EncodedLists::Placed placementOf(std::span<const outlines::ListRecord> records) 
   // would make the steps of all others much coarser.
   const glm::vec3 middle = 0.5f * (fine.low + fine.high), range = fine.high - fine.low;
   const glm::vec3 reach(kFacetReach * std::max({range.x, range.y, range.z}));
-  for (const outlines::ListRecord& record : records) {
+  for (const outlines::ListRecord& record : oneSided ? records : records.first(0)) {
     if (isVertex(record) && record.oneSided &&
         glm::all(glm::lessThanEqual(glm::abs(record.ti - middle), reach)))
       fine.include(record.ti);
