@@ -79,14 +79,14 @@ BaseColor baseColorOf(const tinygltf::Material& source) {
 /// One an image, whatever materials show it.
 class AlphaPyramids {
  public:
-  std::shared_ptr<const AlphaPyramid> of(const std::shared_ptr<const scene::Image>& image) {
-    std::shared_ptr<const AlphaPyramid>& made = made_[image];
-    if (!made) made = std::make_shared<const AlphaPyramid>(*image);
+  std::shared_ptr<const scene::AlphaPyramid> of(const std::shared_ptr<const scene::Image>& image) {
+    std::shared_ptr<const scene::AlphaPyramid>& made = made_[image];
+    if (!made) made = std::make_shared<const scene::AlphaPyramid>(*image);
     return made;
   }
 
  private:
-  std::map<std::shared_ptr<const scene::Image>, std::shared_ptr<const AlphaPyramid>> made_;
+  std::map<std::shared_ptr<const scene::Image>, std::shared_ptr<const scene::AlphaPyramid>> made_;
 };
 }  // namespace
 

@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/alpha_pyramid.hpp"
 #include "scene/scene_description.hpp"
 #include "scenes/gltf_images.hpp"
 
@@ -16,7 +17,7 @@ namespace halfshadow::scenes {
 struct GltfMaterial {
   scene::Material material;
   /// Of the image of a material with a cutoff: made once, whatever shows it; null: it has none.
-  std::shared_ptr<const AlphaPyramid> imageAlpha;
+  std::shared_ptr<const scene::AlphaPyramid> imageAlpha;
   bool blends = false;  ///< alphaMode BLEND, which is cut like MASK
 };
 

@@ -8,9 +8,10 @@
 
 namespace halfshadow::scenes {
 namespace {
-AlphaRange alphaOf(const GltfMaterial& material, const scene::TriangleMesh& mesh, std::size_t triangle) {
+scene::AlphaRange alphaOf(const GltfMaterial& material, const scene::TriangleMesh& mesh,
+                          std::size_t triangle) {
   const std::uint32_t* const corner = &mesh.indices[3 * triangle];
-  AlphaRange range{material.material.baseColor.a, material.material.baseColor.a};
+  scene::AlphaRange range{material.material.baseColor.a, material.material.baseColor.a};
   if (!mesh.colors.empty()) {
     const auto [low, high] =
         std::minmax({mesh.colors[corner[0]].a, mesh.colors[corner[1]].a, mesh.colors[corner[2]].a});
@@ -63,7 +64,7 @@ PresentMesh presentMesh(const GltfMaterial& material, std::shared_ptr<const scen
   std::vector<std::uint32_t> kept;
   bool hasHoles = false;
   for (std::uint32_t t = 0; t < mesh->triangleCount(); ++t) {
-    const AlphaRange alpha = alphaOf(material, *mesh, t);
+    const scene::AlphaRange alpha = alphaOf(material, *mesh, t);
     if (alpha.high < cutoff) continue;
     kept.push_back(t);
     hasHoles = hasHoles || alpha.low < cutoff;

@@ -198,7 +198,7 @@ scene::AlphaCut SurfaceTexture::cut(float cutoff) const {
         scene::Image{.width = desc.width, .height = desc.height, .channels = 1, .pixels = image_.bytes});
   return {.mask = alpha_,
           .sampling = {.wrapU = hostWrapOf(desc.wrap),
-                       .wrapV = hostWrapOf(desc.wrapV),
+                       .wrapV = hostWrapOf(desc.wrapV.value_or(desc.wrap)),
                        .filter = desc.filter == device::TextureFilter::nearest ? ImageFilter::nearest
                                                                                : ImageFilter::linear},
           .cutoff = cutoff};

@@ -43,11 +43,11 @@ TEST(AlphaPyramids, HoldTheAlphaOfEveryPlaceInARectangle) {
     const auto image =
         patchedImage(random, 1 + static_cast<int>(random() % 70), 1 + static_cast<int>(random() % 70));
     const scene::ImageSampling sampling = someSampling(random);
-    const AlphaPyramid pyramid(*image);
+    const scene::AlphaPyramid pyramid(*image);
     const double size = std::pow(10.0, -3.0 * unit(random));
     const glm::dvec2 low(6.0 * unit(random) - 3.0, 6.0 * unit(random) - 3.0);
     const glm::dvec2 high = low + size * glm::dvec2(unit(random), unit(random));
-    const AlphaRange range = pyramid.over(low, high, sampling);
+    const scene::AlphaRange range = pyramid.over(low, high, sampling);
     for (int p = 0; p < 60; ++p) {
       const glm::dvec2 place = glm::mix(low, high, glm::dvec2(unit(random), unit(random)));
       const double alpha = scene::alphaAt(*image, sampling, place);
@@ -93,7 +93,7 @@ TEST(PresentMeshes, LackTrianglesThatAreTransparentAllOver) {
     material.material.baseColorImage = patchedImage(random, 64, 48);
     material.material.sampling = someSampling(random);
     material.material.alphaCutoff = 0.4f;
-    material.imageAlpha = std::make_shared<const AlphaPyramid>(*material.material.baseColorImage);
+    material.imageAlpha = std::make_shared<const scene::AlphaPyramid>(*material.material.baseColorImage);
     const auto mesh = std::make_shared<const scene::TriangleMesh>(quads(random, 60));
     const PresentMesh present = presentMesh(material, mesh);
     const std::size_t triangles = present.mesh ? present.mesh->triangleCount() : 0;
