@@ -73,7 +73,7 @@ class SliceFilterTest : public test::GlTest {
     EXPECT_TRUE(context.ok());
     gl::ProgramCache programs(**context, gl::embeddedShader);
     SharedTextures shared;
-    const Settings settings({});
+    const Settings settings(commonSettings());
     framegraph::Graph graph;
     const View view;
     const scene::AreaLight light;

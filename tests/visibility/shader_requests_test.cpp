@@ -18,7 +18,8 @@ std::vector<std::string> valuesOf(const SettingRecord& setting, bool highp) {
   if (!highp && (key == "occlusion-textures.filter" || key == "occlusion_prefilter")) return {"nbuffer"};
   if (!highp && key == "occlusion-textures.slices") return {setting.defaultValue};
   if (key == "map_size") return {"128", "2048"};
-  if (type == "real" || key.ends_with(".tiles")) return {setting.defaultValue};
+  // How much of a map is drawn again asks for no other shader.
+  if (type == "real" || key.ends_with(".tiles") || key == "map_updates") return {setting.defaultValue};
   std::vector<std::string> values;
   if (type == "integer") {
     std::istringstream range(allowed);
