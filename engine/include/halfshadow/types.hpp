@@ -76,9 +76,9 @@ struct ObjectDesc {
   ImageWrap baseColorWrapU = ImageWrap::repeat, baseColorWrapV = ImageWrap::repeat;
   ImageFilter baseColorFilter = ImageFilter::linear;
   /// Above 0: where the alpha of base colour, image and vertex colour together is less, nothing is there: it
-  /// is not drawn, and casts no shadow. Shadow volumes and wedges cut the mesh along alpha the first time that
-  /// they take its outline; frames' reports say where it takes more triangles than they make. 0: all of it is
-  /// there, and alpha means nothing. Not above 1.
+  /// is not drawn, and casts no shadow. Shadow volumes and wedges cut the mesh along alpha the first time
+  /// that they take its outline; frames' reports say where it takes more triangles than they make. 0: all of
+  /// it is there, and alpha means nothing. Not above 1.
   float alphaCutoff = 0.0f;
   /// The camera is not shown its back faces: those that it sees wound clockwise, with worldFromObject as it
   /// is, counter-clockwise where that mirrors. Closed meshes without holes show theirs all the same, to a
