@@ -238,7 +238,6 @@ class Cutter {
       for (const std::uint32_t replaced : {a, b}) {
         Piece half = whole;
         *std::ranges::find(half.corner, replaced) = middle;
-        half.missed = 0.0;
         add(half);
       }
     }

@@ -35,8 +35,8 @@ struct CutMesh {
 };
 
 /// `mesh` without what alpha cuts out of it. Triangles that alpha runs through are halved where what they
-/// hold and what is cut off along straight lines differ most, until that is a thousandth of what each was
-/// part of or there are `mostTriangles` more than before; neighbours have the same points on their common
+/// hold and what is cut off along straight lines differ most, until that is .03 % of what each was part
+/// of or there are `mostTriangles` more than before; neighbours have the same points on their common
 /// edge.
 CutMesh cutByAlpha(const TriangleMesh& mesh, const AlphaCut& alpha, std::size_t mostTriangles = 60000);
 
