@@ -222,23 +222,40 @@ ResourceId planSummedArea(const Builder& b, ResourceId source) {
 }
 }  // namespace
 
+namespace {
+struct FilterSize {
+  int lastLevel = 0;
+  int width = 0, height = 0;
+};
+
+FilterSize sizeOf(const SliceSpace& space, SliceFilter filter) {
+  const bool tiled = !space.grid.whole();
+  FilterSize size{.lastLevel = levelCovering(space.widestTexels, maxOf(space.mapSize)),
+                  .width = 2 * space.atlasSize,
+                  .height = 2 * space.atlasSize};
+  if (filter == SliceFilter::mipmap) {
+    while ((std::min(space.mapSize.x, space.mapSize.y) >> size.lastLevel) < 2) --size.lastLevel;
+    const MipLayout layout{.mapSize = space.mapSize, .tiles = space.tiles, .tiled = tiled};
+    size.width = layout.width();
+    size.height = layout.height(size.lastLevel);
+  } else if (filter == SliceFilter::nbuffer) {
+    const LevelLayout layout{.mapSize = space.mapSize, .tiles = space.tiles, .tiled = tiled};
+    size.width = layout.width();
+    size.height = layout.height(size.lastLevel);
+  }
+  return size;
+}
+}  // namespace
+
+glm::ivec2 filteredSize(const SliceSpace& space, SliceFilter filter) {
+  const FilterSize size = sizeOf(space, filter);
+  return {size.width, size.height};
+}
+
 Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
                                        const SliceTextures& slices, SliceFilter filter) {
   FilteredSlices result;
-  const int size = maxOf(space.mapSize);
-  const bool tiled = !space.grid.whole();
-  const LevelLayout layout{.mapSize = space.mapSize, .tiles = space.tiles, .tiled = tiled};
-  int lastLevel = levelCovering(space.widestTexels, size);
-  int width = 2 * space.atlasSize, height = 2 * space.atlasSize;
-  if (filter == SliceFilter::mipmap) {
-    while ((std::min(space.mapSize.x, space.mapSize.y) >> lastLevel) < 2) --lastLevel;
-    const MipLayout mips{.mapSize = space.mapSize, .tiles = space.tiles, .tiled = tiled};
-    width = mips.width();
-    height = mips.height(lastLevel);
-  } else if (filter == SliceFilter::nbuffer) {
-    width = layout.width();
-    height = layout.height(lastLevel);
-  }
+  const auto [lastLevel, width, height] = sizeOf(space, filter);
   if (const int limit = scene.capabilities.limits.textureSize; std::max(width, height) > limit) {
     return Error{ErrorCode::invalidArgument,
                  "occlusion-textures.map_size=" + std::to_string(space.atlasSize) + " needs a texture of " +
@@ -246,7 +263,7 @@ Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, 
                      std::to_string(limit) + "; choose a smaller map"};
   }
   result.layout = filter == SliceFilter::summedArea
-                      ? glm::vec4(space.atlasSize, 0.5 / space.atlasSize, 256.0 / countOfFullTexel(size), 0)
+                      ? glm::vec4(space.atlasSize, 0.5 / space.atlasSize, 256.0 / countOfFullTexel(maxOf(space.mapSize)), 0)
                       : glm::vec4(space.atlasSize, 1.0 / width, 1.0 / height, lastLevel);
   for (std::size_t i = 0; i < slices.textures.size(); ++i) {
     const Builder builder{plan, space, scene.name + " occlusion " + std::to_string(i + 1),

@@ -31,6 +31,9 @@ struct SliceTextures {
 SliceTextures planSlices(const LightScene& scene, PassPlan& plan, const SliceSpace& space,
                          SliceContent content, SliceFilter filter);
 
+/// Width and height in texels of the largest texture that a filter of these slices takes.
+glm::ivec2 filteredSize(const SliceSpace& space, SliceFilter filter);
+
 /// Filtered textures, one for each of the slices', and the layout uniform of occlusion_filter.glsl.
 struct FilteredSlices {
   std::vector<framegraph::ResourceId> textures;
