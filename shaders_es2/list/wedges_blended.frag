@@ -75,8 +75,48 @@ HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
 }
 #endif
 
+#if defined(HS_TREES) && defined(HS_CUTS)
+// Adds what the trees hide that the list begins with. Moves on to the first record of something else; not `listed`: there
+// is none.
+void hs_hideByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool listed, inout HS_Occlusion hidden) {
+#ifdef HS_SIDES
+  HS_Occlusion firstSide = hs_nothing();
+#endif
+  HS_Sums sums;
+  hs_clearSums(sums);
+  for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
+    if (!listed) break;
+    HS_Tags tags;
+    HS_HIGHP vec2 next = at;
+    HS_HIGHP vec3 address = hs_nextVertex(next, origin, tags);
+    if (tags.tree < 0.5) break;
+    at = next;
+    hs_walkTree(address, hidden, sums);
+    if (tags.ends > 0.5) {
+#ifdef HS_SIDES
+      HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
+      firstSide = hs_nothing();
+      if (tags.firstSide > 0.5) {
+        firstSide = both;
+      } else {
+        hidden = hs_merge(hidden, both);
+      }
+#else
+      hidden = hs_merge(hidden, hs_occlusion(sums));
+#endif
+      hs_clearSums(sums);
+    }
+    listed = tags.ends < 2.5;
+  }
+}
+#endif
+
 #ifdef HS_CUTS
 HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed, HS_Occlusion hidden) {
+#ifdef HS_TREES
+  // Walked before all else: some devices take both sides of a branch, and would walk trees with every vertex.
+  hs_hideByTrees(at, origin, listed, hidden);
+#endif
   HS_HIGHP float ends = listed ? 0.0 : 3.0;
 #ifdef HS_SIDES
   HS_Occlusion firstSide = hs_nothing();
@@ -97,15 +137,7 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
     for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
       HS_Tags tags;
       HS_HIGHP vec3 projected = hs_nextVertex(at, origin, tags);
-#ifdef HS_TREES
-      if (tags.tree > 0.5) {
-        hs_walkTree(projected, hidden, sums);
-      } else {
-        hs_cutWalk(walk, sums, projected, tags);
-      }
-#else
       hs_cutWalk(walk, sums, projected, tags);
-#endif
       ends = tags.ends;
 #ifdef HS_SIDES
       sideEnds = tags.firstSide;
