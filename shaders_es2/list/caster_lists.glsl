@@ -94,7 +94,7 @@ void hs_findList() {
 
 #ifdef HS_ONE_SIDED
 void hs_roundFacet() {
-  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + 2.0 * u_listPlace.w * abs(hs_receiver));
+  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_receiver));
 }
 #endif
 

@@ -64,7 +64,7 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Cells covered, HS_HIGHP vec3 pro
   walk.reached = seen ? to : walk.reached;
   hs_addFarChord(part, walk.reached, walk.firstReached, walk.begun * tags.closes);
   // A facet hides nothing from itself.
-  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), abs(dot(hs_facet, projected)) / tags.coarse);
+  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), hs_offFacet(projected) / tags.coarse);
   HS_HIGHP float counts = hs_facetRounding > 0.0 ? step(hs_facetRounding, walk.offFacet) : 1.0;
   hs_addPart(covered, walk.oneSided, part, tags.oneSided, tags.closes, counts);
 #else

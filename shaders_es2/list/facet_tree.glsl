@@ -72,7 +72,7 @@ bool hs_nextFacet(inout HS_TreeWalk walk, out HS_HIGHP vec3 a, out HS_HIGHP vec3
   walk.inBox = tag < 0.5;
   HS_HIGHP vec4 beyond = min(min(vec4(a.xy, -a.xy) - a.z, vec4(b.xy, -b.xy) - b.z), vec4(c.xy, -c.xy) - c.z);
   HS_HIGHP float highest = max(max(a.z, b.z), c.z);
-  HS_HIGHP vec3 off = abs(vec3(dot(hs_facet, a), dot(hs_facet, b), dot(hs_facet, c)));
+  HS_HIGHP vec3 off = vec3(hs_offFacet(a), hs_offFacet(b), hs_offFacet(c));
   return highest > hs_near && max(max(beyond.x, beyond.y), max(beyond.z, beyond.w)) <= 0.0 &&
          dot(a, cross(b - a, c - a)) > 0.0 && max(max(off.x, off.y), off.z) >= hs_facetRounding;
 }

@@ -9,11 +9,13 @@ uniform HS_HIGHP vec4 u_cellTexel;   // xy: 1 / size of the tile texture, zw: of
 uniform HS_HIGHP vec4 u_listPlace;
 #ifdef HS_NO_HIGHP
 #define HS_FAR 0.02
+#define HS_PLANE_ROUNDING 2.0
 #define HS_BEHIND 1e-7
 #define HS_SMALL 1e-4
 #define HS_SAME 1e-4
 #else
 #define HS_FAR 1e-6
+#define HS_PLANE_ROUNDING 16.0
 #define HS_BEHIND 1e-30
 #define HS_SMALL 1e-30
 #define HS_SAME 1e-30
@@ -91,6 +93,11 @@ struct HS_Tags {
 #if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
 HS_HIGHP vec3 hs_facet = vec3(0.0);  // how the plane of the receiver's facet rises along (t, i), on its visible side
 HS_HIGHP float hs_facetRounding = 0.0;  // for vertices of one step: they are known to lie off that plane where they rise by more
+// How far a vertex, relative to the receiver, rises off that plane, less what the plane's own rounding makes of its distance:
+// it comes through a varying, and large facets reach far.
+HS_HIGHP float hs_offFacet(HS_HIGHP vec3 vertex) {
+  return abs(dot(hs_facet, vertex)) - HS_PLANE_ROUNDING * u_listPlace.w * dot(abs(hs_facet), abs(vertex));
+}
 #endif
 #ifdef HS_BEHIND_FACETS
 // Corner 0, 1 or 2 of a triangle that has of the light what lies behind that plane, counter-clockwise.

@@ -48,7 +48,7 @@ void hs_cutWalk(inout HS_CutWalk walk, inout HS_Sums sums, HS_HIGHP vec3 project
     walk.begun = 1.0;
   }
 #ifdef HS_ONE_SIDED
-  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), abs(dot(hs_facet, projected)) / tags.coarse);
+  walk.offFacet = max(walk.offFacet * (1.0 - tags.starts), hs_offFacet(projected) / tags.coarse);
   bool twoSided = tags.oneSided < 0.5;
   HS_Sums parts = walk.oneSided;
   if (twoSided) parts = sums;

@@ -98,6 +98,14 @@ std::vector<SettingInfo> commonSettings() {
        "whether maps and slices in which some casters moved are drawn again in that part alone; auto: where "
        "that saves more draws than loading the rest takes a GPU that renders by tiles; the picture is the "
        "same; device profiles set it"},
+      {"outline_triangles",
+       SettingType::integer,
+       "50000",
+       1,
+       100000000,
+       {},
+       "triangles of casters that are not convex, in all, up to which wedges follow their outlines; where "
+       "there are more pcss-mip takes the light, since a frame would take seconds"},
       {"wedge_route",
        SettingType::choice,
        "gather",

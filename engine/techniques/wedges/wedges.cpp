@@ -3,6 +3,7 @@
 #include "techniques/wedges/wedges.hpp"
 
 #include "techniques/core/light_rooms.hpp"
+#include "techniques/parts/lists/dense_casters.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
 #include "techniques/parts/wedges/wedge_shaders.hpp"
@@ -22,8 +23,8 @@ SettingInfo tilesSetting(const std::string& key) {
           1,
           kMaxTiles,
           {},
-          "tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
-          "the surfaces of casters that are not convex"};
+          "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
+          "the surfaces of casters that are not convex; fewer where they would be narrower than 4 pixels"};
 }
 
 WedgeGroup castersWhere(const outlines::WedgePieces& pieces, auto predicate) {
@@ -163,7 +164,10 @@ class AdditiveWedges final : public Technique {
         .takesOutlines = true};
     return info;
   }
-  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    auto dense = standInForDenseCasters(scene);
+    return dense ? dense : standInForRooms(scene);
+  }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges.route"), tilesSetting("wedges.tiles")};
   }
@@ -187,7 +191,10 @@ class ProbabilisticWedges final : public Technique {
         .takesOutlines = true};
     return info;
   }
-  std::optional<StandIn> standIn(const LightScene& scene) const override { return standInForRooms(scene); }
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    auto dense = standInForDenseCasters(scene);
+    return dense ? dense : standInForRooms(scene);
+  }
   std::vector<SettingInfo> settings() const override {
     return {routeSetting("wedges-probabilistic.route"), tilesSetting("wedges-probabilistic.tiles")};
   }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "techniques/core/light_rooms.hpp"
+#include "techniques/parts/lists/dense_casters.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/parts/screen/visibility_parts.hpp"
 #include "techniques/parts/wedges/wedge_route.hpp"
@@ -64,6 +65,9 @@ class WedgesBlended final : public Technique {
         .takesOutlines = true};
     return info;
   }
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    return standInForDenseCasters(scene);
+  }
   std::vector<SettingInfo> settings() const override {
     return {
         {"wedges-blended.cog",
@@ -91,7 +95,8 @@ class WedgesBlended final : public Technique {
          1,
          kMaxTiles,
          {},
-         "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
+         "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light; fewer "
+         "where they would be narrower than 4 pixels"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return vbufferShaders(); }
   std::vector<Fallback> fallbacks() const override {

@@ -3,6 +3,7 @@
 #include "techniques/wedges_cells/wedges_cells.hpp"
 
 #include "techniques/core/light_rooms.hpp"
+#include "techniques/parts/lists/dense_casters.hpp"
 #include "techniques/parts/lists/own_receivers.hpp"
 #include "techniques/wedges_cells/cell_shaders.hpp"
 #include "techniques/wedges_cells/cell_targets.hpp"
@@ -50,6 +51,9 @@ class WedgesCells final : public Technique {
         .takesOutlines = true};
     return info;
   }
+  std::optional<StandIn> standIn(const LightScene& scene) const override {
+    return standInForDenseCasters(scene);
+  }
   std::vector<SettingInfo> settings() const override {
     return {
         {"wedges-cells.bytes",
@@ -75,7 +79,8 @@ class WedgesCells final : public Technique {
          1,
          kMaxTiles,
          {},
-         "tiles of vertex lists along the longer side of what the shadows cover, seen from the light"}};
+         "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light; fewer "
+         "where they would be narrower than 4 pixels"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return cellShaders(); }
   std::vector<Fallback> fallbacks() const override {

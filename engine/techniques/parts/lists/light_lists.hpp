@@ -51,6 +51,7 @@ class LightLists {
   struct Receiver {
     std::uint64_t revision = 0;
     bool seenFromBehind = false, casts = false;
+    int doublings = 0;  ///< of its tiles, for what pixels show of them
     outlines::ReceiverTiles tiles;
     outlines::TileLists lists;
     glm::ivec2 firstTexel{0};
