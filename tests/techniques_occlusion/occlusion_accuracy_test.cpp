@@ -91,8 +91,9 @@ TEST_F(OcclusionAccuracy, ASplitLightErrsLessOnEachFilter) {
   }
 }
 
-// The project's figure of all configurations, .018, is reached by each of those whose penumbrae are the fewest
-// texels wide but for the fence: its posts are two texels thin even so (.022, with 256 texels a side .042).
+// The project's figure of all configurations, .018, is reached by each of those whose penumbrae are the
+// fewest texels wide but for the fence: its posts are two texels thin even so (.022, with 256 texels a side
+// .042).
 TEST_F(OcclusionAccuracy, NarrowPenumbraeGetMoreTexels) {
   if (isForcedOff("highp")) GTEST_SKIP() << "mediump coordinates could not tell more texels apart";
   for (const auto& [name, most] : {std::pair{"spheres27@light=0.3", 0.018}, {"fence@light=0.3", 0.025}}) {

@@ -128,7 +128,9 @@ TEST_F(OpenCasters, ShadowTheGroundOnce) {
 
 /// A table of two triangles over a dense sheet, one mesh of two parts: nothing hides the table.
 scenes::Shape tableOverSheet(float half, float height, int cells) {
-  scenes::Shape shape{.positions = {{half, height, half}, {half, height, -half}, {-half, height, -half},
+  scenes::Shape shape{.positions = {{half, height, half},
+                                    {half, height, -half},
+                                    {-half, height, -half},
                                     {-half, height, half}},
                       .indices = {0, 1, 2, 0, 2, 3}};
   const auto first = static_cast<std::uint32_t>(shape.positions.size());
@@ -142,14 +144,15 @@ scenes::Shape tableOverSheet(float half, float height, int cells) {
   for (std::uint32_t j = 0; j + 1 < row; ++j) {
     for (std::uint32_t i = 0; i + 1 < row; ++i) {
       const std::uint32_t k = first + j * row + i;
-      for (const std::uint32_t v : {k, k + row, k + 1, k + 1, k + row, k + row + 1}) shape.indices.push_back(v);
+      for (const std::uint32_t v : {k, k + row, k + 1, k + 1, k + row, k + row + 1})
+        shape.indices.push_back(v);
     }
   }
   return shape;
 }
 
-// Wide facets beside small ones: a fragment knows its facet's plane from a varying, and corners far off it only
-// as exactly as that. (A chess board of two triangles within a carved rim had black specks all over.)
+// Wide facets beside small ones: a fragment knows its facet's plane from a varying, and corners far off it
+// only as exactly as that. (A chess board of two triangles within a carved rim had black specks all over.)
 TEST_F(OpenCasters, WideFacetsHideNothingOfThemselves) {
   const std::uint32_t seed = 20261127;
   std::printf("seed %u\n", seed);
@@ -166,7 +169,8 @@ TEST_F(OpenCasters, WideFacetsHideNothingOfThemselves) {
     described.camera = scene::Camera{.eyeWorld = target + glm::dvec3(between(-40, 40), 290, between(80, 150)),
                                      .targetWorld = target,
                                      .verticalFovRadians = glm::radians(between(8.0, 14.0))};
-    const auto light = scene::areaLightAimed({between(100, 250), 600, between(100, 250)}, target, 128, 128, {0, 0, 1});
+    const auto light =
+        scene::areaLightAimed({between(100, 250), 600, between(100, 250)}, target, 128, 128, {0, 0, 1});
     ASSERT_TRUE(light.ok());
     described.lights = {*light};
     renderer().load(described);

@@ -27,8 +27,9 @@ constexpr double kOwnSurfaceBiasOfParts = 0.048;
 constexpr double kWidestSpread = 8.0;
 
 /// Texels: a map whose widest kernel is narrower gets twice as many a side. Edges are known to about half a
-/// texel, so that the errors of spheres27 and fence at h = .3 (12 and 17 texels) halve with it; from 20 texels
-/// on they fall by a quarter or less. Narrow kernels need few levels: twice the texels are no more fetches.
+/// texel, so that the errors of spheres27 and fence at h = .3 (12 and 17 texels) halve with it; from 20
+/// texels on they fall by a quarter or less. Narrow kernels need few levels: twice the texels are no more
+/// fetches.
 constexpr double kNarrowKernel = 20.0;
 
 constexpr device::UniformKey kSamplers[] = {"u_occlusion0", "u_occlusion1", "u_occlusion2", "u_occlusion3",
@@ -126,36 +127,37 @@ class OcclusionTextures final : public Technique {
                          std::move(choices),
                          text};
     };
-    return {choice("preset", "tuned", {"paper", "tuned"},
-                   "paper: binary slices on their far planes, multiplied; tuned: first hits with their mean "
-                   "depth, added"),
-            {"occlusion-textures.slices",
-             SettingType::integer,
-             "4",
-             4,
-             16,
-             {},
-             "slices between the nearest and the farthest caster"},
-            {"occlusion-textures.map_size",
-             SettingType::integer,
-             "256",
-             64,
-             1024,
-             {},
-             "side of the occlusion textures in texels; tuned: twice as many where the widest penumbra would be "
-             "under 20 of them wide"},
-            choice("filter", "auto", {"auto", "mipmap", "nbuffer", "sat"},
-                   "prefilter: hardware mipmaps, N-buffers, or exact summed-area tables; auto: "
-                   "occlusion_prefilter, the device profile's choice"),
-            choice("combine", "auto", {"auto", "product", "sum", "max"},
-                   "how shares of slices become one; auto: product for paper, sum for tuned"),
-            choice("projection", "perspective", {"perspective", "orthographic"}, "of the slices"),
-            choice("center", "auto", {"auto", "light", "behind"},
-                   "of the perspective projection: the light's centre, or behind it as far as the paper puts "
-                   "it; auto: by preset"),
-            choice("leak_fix", "off", {"off", "on"},
-                   "paper: also project each slice on the next one, which closes the gaps of thin occluders; "
-                   "tuned has no such gaps")};
+    return {
+        choice("preset", "tuned", {"paper", "tuned"},
+               "paper: binary slices on their far planes, multiplied; tuned: first hits with their mean "
+               "depth, added"),
+        {"occlusion-textures.slices",
+         SettingType::integer,
+         "4",
+         4,
+         16,
+         {},
+         "slices between the nearest and the farthest caster"},
+        {"occlusion-textures.map_size",
+         SettingType::integer,
+         "256",
+         64,
+         1024,
+         {},
+         "side of the occlusion textures in texels; tuned: twice as many where the widest penumbra would be "
+         "under 20 of them wide"},
+        choice("filter", "auto", {"auto", "mipmap", "nbuffer", "sat"},
+               "prefilter: hardware mipmaps, N-buffers, or exact summed-area tables; auto: "
+               "occlusion_prefilter, the device profile's choice"),
+        choice("combine", "auto", {"auto", "product", "sum", "max"},
+               "how shares of slices become one; auto: product for paper, sum for tuned"),
+        choice("projection", "perspective", {"perspective", "orthographic"}, "of the slices"),
+        choice("center", "auto", {"auto", "light", "behind"},
+               "of the perspective projection: the light's centre, or behind it as far as the paper puts "
+               "it; auto: by preset"),
+        choice("leak_fix", "off", {"off", "on"},
+               "paper: also project each slice on the next one, which closes the gaps of thin occluders; "
+               "tuned has no such gaps")};
   }
   std::optional<StandIn> standIn(const LightScene& scene) const override {
     if (readChoices(scene.settings).paper()) return std::nullopt;

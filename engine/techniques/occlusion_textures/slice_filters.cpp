@@ -263,7 +263,8 @@ Result<FilteredSlices> planSliceFilter(const LightScene& scene, PassPlan& plan, 
                      std::to_string(limit) + "; choose a smaller map"};
   }
   result.layout = filter == SliceFilter::summedArea
-                      ? glm::vec4(space.atlasSize, 0.5 / space.atlasSize, 256.0 / countOfFullTexel(maxOf(space.mapSize)), 0)
+                      ? glm::vec4(space.atlasSize, 0.5 / space.atlasSize,
+                                  256.0 / countOfFullTexel(maxOf(space.mapSize)), 0)
                       : glm::vec4(space.atlasSize, 1.0 / width, 1.0 / height, lastLevel);
   for (std::size_t i = 0; i < slices.textures.size(); ++i) {
     const Builder builder{plan, space, scene.name + " occlusion " + std::to_string(i + 1),

@@ -17,14 +17,15 @@ using framegraph::ResourceId;
 /// Tiles of the lists for receivers among the surfaces of one caster, which wedges of its silhouette do not
 /// shadow.
 SettingInfo tilesSetting(const std::string& key) {
-  return {key,
-          SettingType::integer,
-          "128",
-          1,
-          kMaxTiles,
-          {},
-          "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
-          "the surfaces of casters that are not convex; fewer where they would be narrower than 4 pixels"};
+  return {
+      key,
+      SettingType::integer,
+      "128",
+      1,
+      kMaxTiles,
+      {},
+      "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light, for "
+      "the surfaces of casters that are not convex; fewer where they would be narrower than 4 pixels"};
 }
 
 WedgeGroup castersWhere(const outlines::WedgePieces& pieces, auto predicate) {

@@ -79,7 +79,8 @@ class WedgesCells final : public Technique {
          1,
          kMaxTiles,
          {},
-         "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light; fewer "
+         "most tiles of vertex lists along the longer side of what the shadows cover, seen from the light; "
+         "fewer "
          "where they would be narrower than 4 pixels"}};
   }
   std::vector<ShaderFamily> shaderFamilies() const override { return cellShaders(); }

@@ -18,8 +18,9 @@ constexpr double kCasterTileShare = 0.5;
 constexpr double kEvenSlope = 2.0, kSqueezedFrom = 16.0;
 
 /// Pixels across a tile of a caster, where that is nearest to the eye, up to which tiles are doubled: smaller
-/// ones take long to make for little. (On other receivers they tell who stands before all of a tile.) Measured at spheres27, statue and bitmoji of 480x300 pixels, whose tiles were
-/// 1 to 3 pixels wide: a moving light costs a tenth to two fifths less, fragments fetch 3 to 16 % more.
+/// ones take long to make for little. (On other receivers they tell who stands before all of a tile.)
+/// Measured at spheres27, statue and bitmoji of 480x300 pixels, whose tiles were 1 to 3 pixels wide: a moving
+/// light costs a tenth to two fifths less, fragments fetch 3 to 16 % more.
 constexpr double kWideTilePixels = 4.0;
 /// Lists stay while the camera comes nearer, until tiles are so many doublings too wide.
 constexpr int kKeptDoublings = 1;
@@ -217,8 +218,7 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
       const bool seenFromBehind = maySeeBehind(scene.screen, item);
       const double side = item.casts ? kCasterTileShare * finest * std::exp2(casterDoublings_)
                                      : finest * std::exp2(doublings_);
-      const int doublings =
-          item.casts ? doublingsToPixels(scene.screen, item, loops_->space(), side) : 0;
+      const int doublings = item.casts ? doublingsToPixels(scene.screen, item, loops_->space(), side) : 0;
       if (cached.revision != item.revision || cached.seenFromBehind != seenFromBehind ||
           doublings + kKeptDoublings < cached.doublings) {
         cached.revision = item.revision;
@@ -235,8 +235,8 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
                                       .worldFromObject = item.worldFromObject,
                                       .closed = !seenFromBehind,
                                       .withPatches = receiver.ownObject != outlines::kNoObject},
-                                     loops_->space(), shadows_,
-                                     side * std::exp2(doublings), kMaxTiles, loops_->minHeight(), scale_);
+                                     loops_->space(), shadows_, side * std::exp2(doublings), kMaxTiles,
+                                     loops_->minHeight(), scale_);
         cached.lists = tileLists(loops_->subLights(), surfaces_, cached.tiles, receiver, request.edges,
                                  mostRecords - records);
         changed = true;
