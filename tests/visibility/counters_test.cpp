@@ -38,7 +38,7 @@ const std::vector<Cost> kCosts = {
     {{"pcss-mip"}, 1 + 4 + 3},
     {{"pcf-quantized"}, 1 + 4 + 3},
     // Without highp casters are drawn into both slice textures, else once and then sorted into them.
-    {{"occlusion-textures"}, (isForcedOff("highp") ? 2 : 1) + 2 + 2 * (6 + 1)},
+    {{"occlusion-textures"}, (isForcedOff("highp") ? 2u : 1u) + 2 + 2 * (6 + 1)},
     {{"shadow-width", {{"sub_lights", "1"}}}, 1 + 2 + 6 + 7 + 1},
     {{"shadow-width"}, 1 + 2 + 3 + 4 + 1 + 4},
     {{"shadow-volume"}, 0, 1},

@@ -102,10 +102,10 @@ TEST_F(NearCaster, ACasterBeforeTheMapStillCasts) {
   const glm::dvec3 center(3, 12, 2), toBox = glm::normalize(glm::dvec3(0, 1, 0) - center);
   const auto tested = [&](double distance) {
     const double half = 0.05 * distance;
-    auto tested = scene({boxObject(center + distance * toBox, glm::dvec3(half))});
-    tested.lights.front().halfU *= 0.1 * distance;
-    tested.lights.front().halfV *= 0.1 * distance;
-    return tested;
+    auto chip = scene({boxObject(center + distance * toBox, glm::dvec3(half))});
+    chip.lights.front().halfU *= 0.1 * distance;
+    chip.lights.front().halfV *= 0.1 * distance;
+    return chip;
   };
   const double hard = judge(tested(0.05), "hard").rmse;
   for (const double distance : {5e-3, 1e-3, 2e-4}) {

@@ -178,7 +178,7 @@ TEST_F(Shaded, FallsWithTheSquareOfTheDistance) {
   scene.objects = {groundPlane(20.0)};
   scene.camera = cameraAbove(0.0, 0.0, 5.0);
   const std::size_t middle = static_cast<std::size_t>(kHeight / 2) * kWidth + kWidth / 2;
-  const auto light = [&](double height, double reference) {
+  const auto litFrom = [&](double height, double reference) {
     scene::AreaLight light = lightAbove({0, height, 0}, 0.1, 0.1);
     light.intensity = 0.3;
     light.referenceDistance = reference;
@@ -187,13 +187,13 @@ TEST_F(Shaded, FallsWithTheSquareOfTheDistance) {
     const Image lit = shaded("none", {light}), dark = shaded("none", {dimmed(light, 0.0)});
     return linear(lit.byte(middle)) - linear(dark.byte(middle));
   };
-  const double full = light(10.0, 0.0);
+  const double full = litFrom(10.0, 0.0);
   ASSERT_GT(full, 0.1);
-  EXPECT_NEAR(light(30.0, 0.0), full, 1.0 / 255.0) << "a sun";
-  EXPECT_NEAR(light(10.0, 10.0), full, 1.0 / 255.0);
-  EXPECT_NEAR(light(20.0, 10.0), full / 4.0, 1.0 / 255.0);
-  EXPECT_NEAR(light(10.0, 15.0), full * 2.25, 2.0 / 255.0);
-  EXPECT_NEAR(light(2.0, 10.0), std::min(full * 4.0, 1.0), 2.0 / 255.0) << "at most four times";
+  EXPECT_NEAR(litFrom(30.0, 0.0), full, 1.0 / 255.0) << "a sun";
+  EXPECT_NEAR(litFrom(10.0, 10.0), full, 1.0 / 255.0);
+  EXPECT_NEAR(litFrom(20.0, 10.0), full / 4.0, 1.0 / 255.0);
+  EXPECT_NEAR(litFrom(10.0, 15.0), full * 2.25, 2.0 / 255.0);
+  EXPECT_NEAR(litFrom(2.0, 10.0), std::min(full * 4.0, 1.0), 2.0 / 255.0) << "at most four times";
 }
 
 // A light shines to one side of its plane; what lies on the other shows ambient light alone.

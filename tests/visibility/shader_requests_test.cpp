@@ -93,8 +93,8 @@ TEST_P(ShaderRequests, AreAllDeclared) {
 INSTANTIATE_TEST_SUITE_P(Without, ShaderRequests,
                          testing::Values("timer-query", "depth-texture", "highp", "derivatives",
                                          "framebuffer-fetch"),
-                         [](const auto& info) {
-                           std::string name = info.param;
+                         [](const auto& without) {
+                           std::string name = without.param;
                            std::erase(name, '-');
                            return name;
                          });
