@@ -102,7 +102,7 @@ std::vector<SettingInfo> commonSettings() {
        SettingType::integer,
        "50000",
        1,
-       100000000,
+       999999,
        {},
        "triangles of casters that are not convex, in all, up to which wedges follow their outlines; where "
        "there are more pcss-mip takes the light, since a frame would take seconds"},
