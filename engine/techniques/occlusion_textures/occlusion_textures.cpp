@@ -233,9 +233,10 @@ class OcclusionPlanner final : public LightPlanner {
     SliceOptions options = asked;
     auto made = makeSliceSpace(scene.fit(), scene.casterShapes, options, scene.subLights);
     // Coordinates of mediump could not tell the texels apart.
-    const bool finer = !choices.paper() && scene.capabilities.has(device::Capability::highp);
-    if (made && finer && made->widestTexels < kNarrowKernel) {
-      options.mapSize = std::min(2 * asked.mapSize, kMostMapSize);
+    const bool mayDouble = !choices.paper() && 2 * asked.mapSize <= kMostMapSize &&
+                           scene.capabilities.has(device::Capability::highp);
+    if (made && mayDouble && made->widestTexels < kNarrowKernel) {
+      options.mapSize = 2 * asked.mapSize;
       auto twice = makeSliceSpace(scene.fit(), scene.casterShapes, options, scene.subLights);
       const glm::ivec2 side = twice ? filteredSize(*twice, choices.filter) : glm::ivec2(0);
       if (twice && std::max(side.x, side.y) <= scene.capabilities.limits.textureSize) made = std::move(twice);

@@ -220,9 +220,7 @@ ResourceId planSummedArea(const Builder& b, ResourceId source) {
   }
   return current;
 }
-}  // namespace
 
-namespace {
 struct FilterSize {
   int lastLevel = 0;
   int width = 0, height = 0;
