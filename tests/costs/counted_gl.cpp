@@ -2,7 +2,12 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "counted_gl.hpp"
 
+#include <algorithm>
+#include <array>
+#include <map>
+#include <sstream>
 #include <string_view>
+#include <utility>
 
 #include "engine_fixture.hpp"
 #include "gl/functions.hpp"
@@ -11,12 +16,48 @@ namespace halfshadow::test {
 namespace {
 std::uint64_t calls = 0;
 
+/// By function and, of those that set one of several, which.
+std::map<std::string, std::string> state;
+std::set<std::string> drawnStates;
+
+constexpr std::array<std::string_view, 11> kStateFunctions{
+    "glUseProgram", "glBlendFuncSeparate", "glBlendEquationSeparate", "glColorMask",
+    "glDepthFunc",  "glDepthMask",         "glStencilOpSeparate",     "glCullFace",
+    "glFrontFace",  "glPolygonOffset",     "glStencilMaskSeparate"};
+
+template <typename... Arguments>
+std::string written(Arguments... arguments) {
+  std::ostringstream text;
+  ((text << ' ' << +arguments), ...);
+  return text.str();
+}
+
+/// What a call changes of the state in which the next draw happens; a draw keeps it.
+template <typename... Arguments>
+void follow(std::string_view name, Arguments... arguments) {
+  if constexpr ((std::is_arithmetic_v<Arguments> && ...)) {
+    if (name == "glEnable") state["capability" + written(arguments...)] = "on";
+    if (name == "glDisable") state.erase("capability" + written(arguments...));
+    if (name == "glStencilOpSeparate" || name == "glStencilMaskSeparate") {
+      const std::string text = written(arguments...);
+      state[std::string(name) + text.substr(0, text.find(' ', 1))] = text;
+    } else if (std::ranges::find(kStateFunctions, name) != kStateFunctions.end()) {
+      state[std::string(name)] = written(arguments...);
+    }
+  }
+  if (name != "glDrawArrays" && name != "glDrawElements") return;
+  std::string all;
+  for (const auto& [key, value] : state) all += key + ':' + value + '\n';
+  drawnStates.insert(std::move(all));
+}
+
 /// The driver's function behind one that counts; `Name` tells apart functions of one type.
 template <typename Name, typename Result, typename... Arguments>
 struct Counted {
   static inline Result (*driver)(Arguments...) = nullptr;
   static Result call(Arguments... arguments) {
     ++calls;
+    follow(Name::function(), arguments...);
     return driver(arguments...);
   }
 };
@@ -31,13 +72,17 @@ void* counted(Result (*)(Arguments...), void* driver) {
 void* load(const char* name, void* user) {
   void* driver = static_cast<HeadlessContext*>(user)->getProcAddress(name);
   const std::string_view wanted(name);
-#define HALFSHADOW_COUNT_CORE(member, glName) \
-  struct Name_##member {};                    \
+#define HALFSHADOW_COUNT_CORE(member, glName)              \
+  struct Name_##member {                                   \
+    static std::string_view function() { return #glName; } \
+  };                                                       \
   if (wanted == #glName) return counted<Name_##member>(static_cast<decltype(&::glName)>(nullptr), driver);
   HALFSHADOW_GL_CORE_FUNCTIONS(HALFSHADOW_COUNT_CORE)
 #undef HALFSHADOW_COUNT_CORE
-#define HALFSHADOW_COUNT_OPTIONAL(member, glName, type) \
-  struct Name_##member {};                              \
+#define HALFSHADOW_COUNT_OPTIONAL(member, glName, type)   \
+  struct Name_##member {                                  \
+    static std::string_view function() { return glName; } \
+  };                                                      \
   if (wanted == glName) return counted<Name_##member>(static_cast<type>(nullptr), driver);
   HALFSHADOW_GL_OPTIONAL_FUNCTIONS(HALFSHADOW_COUNT_OPTIONAL)
 #undef HALFSHADOW_COUNT_OPTIONAL
@@ -56,6 +101,10 @@ std::unique_ptr<Engine> makeCountedEngine() {
 
 std::uint64_t glCallCount() {
   return calls;
+}
+
+std::set<std::string> takeDrawnStates() {
+  return std::exchange(drawnStates, {});
 }
 
 }  // namespace halfshadow::test

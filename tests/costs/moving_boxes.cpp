@@ -93,7 +93,9 @@ void MovingBoxes::Follower::follow(const MovingBoxes& boxes) {
   }
   std::erase_if(held_, [&](const Held& held) {
     const bool gone = std::ranges::find(boxes.boxes_, held.box, &Box::number) == boxes.boxes_.end();
-    if (gone) EXPECT_TRUE(engine_.removeObject(held.id).ok());
+    if (gone) {
+      EXPECT_TRUE(engine_.removeObject(held.id).ok());
+    }
     return gone;
   });
   for (const Box& box : boxes.boxes_) {
@@ -102,9 +104,12 @@ void MovingBoxes::Follower::follow(const MovingBoxes& boxes) {
       held = held_.insert(held_.end(), {box.number, box.edits, box.worldFromObject, 0});
       EXPECT_TRUE(engine_.addObject(descOf(box), held->id).ok());
     }
-    if (held->edits != box.edits) EXPECT_TRUE(engine_.setVertices(held->id, descOf(box).mesh).ok());
-    if (held->worldFromObject != box.worldFromObject)
+    if (held->edits != box.edits) {
+      EXPECT_TRUE(engine_.setVertices(held->id, descOf(box).mesh).ok());
+    }
+    if (held->worldFromObject != box.worldFromObject) {
       EXPECT_TRUE(engine_.setTransform(held->id, glm::value_ptr(box.worldFromObject)).ok());
+    }
     held->edits = box.edits;
     held->worldFromObject = box.worldFromObject;
   }

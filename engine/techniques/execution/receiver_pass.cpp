@@ -275,20 +275,31 @@ gl::DrawState receiverState(const ReceiverTarget& target) {
   return state;
 }
 
+namespace {
+/// Depth ranges of one length that begin a step of the depth buffer apart. Not a polygon offset: drivers compile
+/// that into their own programs (llvmpipe keeps 64 of them, and compiled them anew with every object).
+glm::vec2 depthRangeApart(std::ptrdiff_t place, const device::Capabilities& capabilities) {
+  // Too few to bring anything forward that is not in the same place.
+  constexpr std::ptrdiff_t kMostSteps = 64;
+  // Twice what a buffer of 24 or 16 bits resolves: ranges are rounded to it on the way.
+  const float step = std::ldexp(1.0f, capabilities.has(device::Capability::depth24) ? -23 : -15);
+  const auto steps = static_cast<float>(place % kMostSteps);
+  return {steps * step, 1.0f - (static_cast<float>(kMostSteps - 1) - steps) * step};
+}
+}  // namespace
+
 void drawReceivers(framegraph::PassContext& context, const ReceiverShading& shading,
                    const ReceiverProgramSet& programs, const View& view, std::span<const DrawItem> items,
                    const ShadingInputs* inputs, const ReceiverTarget& target) {
   gl::Encoder& encoder = context.encoder;
   const bool derivatives = encoder.context().capabilities().has(device::Capability::derivatives);
   gl::DrawState state = receiverState(target);
-  // Steps of a depth buffer: too few to bring anything forward that is not in the same place.
-  constexpr std::ptrdiff_t kMostSteps = 64;
   gl::Program* current = nullptr;
   device::UniformList ofItem;
   const auto shadedBy = inputs == nullptr ? std::span<const scene::AreaLight>() : inputs->lights;
   const auto draw = [&](const DrawItem& item, gl::Program* ReceiverPrograms::*phase) {
     if (target.depthsApart) {
-      state.polygonOffset = glm::vec2(0.0f, static_cast<float>((&item - items.data()) % kMostSteps));
+      state.depthRange = depthRangeApart(&item - items.data(), encoder.context().capabilities());
     }
     const ReceiverKind kind = kindOf(shading, item, shadedBy, derivatives);
     gl::Program* program = programs.of(kind).*phase;
