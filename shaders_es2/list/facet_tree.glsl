@@ -7,12 +7,16 @@
 #if defined(HS_TREES) && defined(HS_CUTS)
 struct HS_TreeWalk {
   HS_HIGHP float first;   // record of the tree
-  HS_HIGHP float record;  // the next box, or vertex of a facet
+  HS_HIGHP float record;  // the next one
   HS_HIGHP float contour; // the record that tells where a contour is to be walked; less than 0: none
   HS_HIGHP vec3 origin;
   bool lightAbove;        // all of it lies before the receiver's own facet
-  bool inBox;             // the next record is a facet's vertex
+  bool inBox;             // the next record is a vertex of its facets, which stand in strips
   bool ended;
+  // The last vertices, and whether they make a facet that hides. Counter-clockwise: a b c where `way` is 1, b a c where -1.
+  HS_HIGHP vec3 a, b, c;
+  HS_HIGHP float way;
+  bool hides;
 };
 
 HS_HIGHP vec2 hs_recordAt(HS_HIGHP float record) {
@@ -30,25 +34,6 @@ bool hs_boxMisses(HS_TreeWalk walk, HS_HIGHP vec3 low, HS_HIGHP vec3 high) {
   return behind || high.z <= 0.0 || min(high.x, high.y) < -reach || max(low.x, low.y) > reach;
 }
 
-// Goes from a box into it, or to its contour, or past it.
-void hs_passBox(inout HS_TreeWalk walk) {
-  HS_COUNT(2);
-  HS_HIGHP vec2 at = hs_recordAt(walk.record);
-  HS_HIGHP vec4 first = floor(texture2D(u_cellLists, at) * 255.0 + 0.5);
-  HS_HIGHP vec4 second = floor(texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0)) * 255.0 + 0.5);
-  HS_HIGHP vec3 low = (first.xyz - 128.0) * hs_wideStep + walk.origin;
-  HS_HIGHP vec3 high = (vec3(first.w, second.xy) - 128.0) * hs_wideStep + walk.origin;
-  HS_HIGHP float isLeaf = step(127.5, second.z), kind = second.z - 128.0 * isLeaf;
-  HS_HIGHP float hasContour = step(63.5, kind);
-  HS_HIGHP float skip = (kind - 64.0 * hasContour) * 256.0 + second.w;
-  walk.ended = skip < 0.5;
-  bool misses = hs_boxMisses(walk, low, high);
-  bool onContour = !misses && hasContour > 0.5 && low.z > hs_near;
-  walk.contour = onContour ? walk.record + 1.0 : -1.0;
-  walk.inBox = !walk.ended && !misses && isLeaf > 0.5;
-  walk.record += misses || onContour ? skip : 1.0 + hasContour;
-}
-
 // A vertex as (x w, y w, w) on the light's plane. `tag`: 1 where the box or contour ends, and 32 where a loop starts.
 HS_HIGHP vec3 hs_treeVertex(HS_HIGHP float record, HS_HIGHP vec3 origin, out HS_HIGHP float tag) {
   HS_COUNT(2);
@@ -61,20 +46,46 @@ HS_HIGHP vec3 hs_treeVertex(HS_HIGHP float record, HS_HIGHP vec3 origin, out HS_
   return value * hs_wideStep + origin;
 }
 
-// Reads the next facet of a box. Whether it hides some of the light from the receiver: it is before it, not all beyond one
-// side of the light, seen from its inner side, and not the receiver's own.
-bool hs_nextFacet(inout HS_TreeWalk walk, out HS_HIGHP vec3 a, out HS_HIGHP vec3 b, out HS_HIGHP vec3 c) {
-  HS_HIGHP float tag;
-  a = hs_treeVertex(walk.record, walk.origin, tag);
-  b = hs_treeVertex(walk.record + 1.0, walk.origin, tag);
-  c = hs_treeVertex(walk.record + 2.0, walk.origin, tag);
-  walk.record += 3.0;
-  walk.inBox = tag < 0.5;
-  HS_HIGHP vec4 beyond = min(min(vec4(a.xy, -a.xy) - a.z, vec4(b.xy, -b.xy) - b.z), vec4(c.xy, -c.xy) - c.z);
-  HS_HIGHP float highest = max(max(a.z, b.z), c.z);
-  HS_HIGHP vec3 off = vec3(hs_offFacet(a), hs_offFacet(b), hs_offFacet(c));
+// Whether a facet that faces the receiver with its inner side hides some of the light from it: it is before it, not all
+// beyond one side of the light, and not the receiver's own.
+bool hs_facetHides(HS_TreeWalk walk) {
+  HS_HIGHP vec4 beyond = min(min(vec4(walk.a.xy, -walk.a.xy) - walk.a.z, vec4(walk.b.xy, -walk.b.xy) - walk.b.z),
+                             vec4(walk.c.xy, -walk.c.xy) - walk.c.z);
+  HS_HIGHP float highest = max(max(walk.a.z, walk.b.z), walk.c.z);
+  HS_HIGHP vec3 off = vec3(hs_offFacet(walk.a), hs_offFacet(walk.b), hs_offFacet(walk.c));
   return highest > hs_near && max(max(beyond.x, beyond.y), max(beyond.z, beyond.w)) <= 0.0 &&
-         dot(a, cross(b - a, c - a)) > 0.0 && max(max(off.x, off.y), off.z) >= hs_facetRounding;
+         max(max(off.x, off.y), off.z) >= hs_facetRounding;
+}
+
+// Goes on by a record: from a box into it, or to its contour, or past it, or to the next vertex of a box's facets. Boxes and
+// vertices in one loop and by one fetch: fragments that are drawn together stand at either.
+void hs_passRecord(inout HS_TreeWalk walk) {
+  HS_COUNT(2);
+  HS_HIGHP vec2 at = hs_recordAt(walk.record);
+  HS_HIGHP vec4 first = floor(texture2D(u_cellLists, at) * 255.0 + 0.5);
+  HS_HIGHP vec4 second = floor(texture2D(u_cellLists, at + vec2(u_cellTexel.z, 0.0)) * 255.0 + 0.5);
+  if (walk.inBox) {
+    HS_HIGHP float turns = step(1.5, second.z);
+    walk.a = turns > 0.5 ? walk.a : walk.b;
+    walk.b = walk.c;
+    walk.c = (vec3(first.xz, second.x) - 128.0 + vec3(first.yw, second.y) * (1.0 / 256.0)) * hs_wideStep + walk.origin;
+    walk.inBox = second.z - 2.0 * turns < 0.5;
+    walk.record += 1.0;
+    walk.way = second.w - 1.0;
+    walk.hides = walk.way * dot(walk.a, cross(walk.b - walk.a, walk.c - walk.a)) > 0.0 && hs_facetHides(walk);
+  } else {
+    HS_HIGHP vec3 low = (first.xyz - 128.0) * hs_wideStep + walk.origin;
+    HS_HIGHP vec3 high = (vec3(first.w, second.xy) - 128.0) * hs_wideStep + walk.origin;
+    HS_HIGHP float isLeaf = step(127.5, second.z), kind = second.z - 128.0 * isLeaf;
+    HS_HIGHP float hasContour = step(63.5, kind);
+    HS_HIGHP float skip = (kind - 64.0 * hasContour) * 256.0 + second.w;
+    walk.ended = skip < 0.5;
+    bool misses = hs_boxMisses(walk, low, high);
+    bool onContour = !misses && hasContour > 0.5 && low.z > hs_near;
+    walk.contour = onContour ? walk.record + 1.0 : -1.0;
+    walk.inBox = !walk.ended && !misses && isLeaf > 0.5;
+    walk.record += misses || onContour ? skip : 1.0 + hasContour;
+  }
 }
 
 // Adds the contour that was reached, if one was. Receivers lie behind all of it.
@@ -111,22 +122,18 @@ void hs_walkTree(HS_HIGHP vec3 address, HS_Left left, inout HS_Covered covered) 
   walk.first = address.x + floor(0.5 / u_cellTexel.z + 0.5) * (address.y + 256.0 * address.z);
   walk.record = walk.first + 1.0;
   walk.contour = -1.0;
-  walk.inBox = walk.ended = false;
+  walk.inBox = walk.ended = walk.hides = false;
+  walk.a = walk.b = walk.c = vec3(0.0);
+  walk.way = 0.0;
   for (HS_HIGHP int i = 0; i < HS_LONGEST_LIST; ++i) {
     if (walk.ended || hs_hidesAll(left, covered)) break;
-    HS_HIGHP float edges = 0.0;
-    HS_HIGHP vec3 a = vec3(0.0), b = vec3(0.0), c = vec3(0.0);
-    for (HS_HIGHP int j = 0; j < HS_LONGEST_LIST; ++j) {
-      if (edges > 0.5 || walk.contour > 0.0 || walk.ended) break;
-      for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
-        if (walk.inBox || walk.contour > 0.0 || walk.ended) break;
-        hs_passBox(walk);
-      }
-      for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
-        if (!walk.inBox || edges > 0.5) break;
-        edges = hs_nextFacet(walk, a, b, c) ? 3.0 : 0.0;
-      }
+    walk.hides = false;
+    for (HS_HIGHP int k = 0; k < HS_LONGEST_LIST; ++k) {
+      if (walk.hides || walk.contour > 0.0 || walk.ended) break;
+      hs_passRecord(walk);
     }
+    HS_HIGHP float edges = walk.hides ? 3.0 : 0.0;
+    HS_HIGHP vec3 a = walk.way > 0.0 ? walk.a : walk.b, b = walk.way > 0.0 ? walk.b : walk.a, c = walk.c;
     // Of a facet that reaches through the receiver's height the near part counts, which a chord far off closes.
     HS_HIGHP vec2 gone = vec2(0.0), met = vec2(0.0);
     HS_HIGHP float cut = 0.0;

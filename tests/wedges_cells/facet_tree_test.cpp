@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 
@@ -154,7 +155,7 @@ TEST(FacetTrees, WhatLeadsOverATreeFitsItsRecord) {
       for (const FacetTree& tree : *side) {
         check(tree);
         // What leads to a contour has 16 bits, what leads over a box 14.
-        EXPECT_LT(techniques::recordsOf(tree) - 2, 16384u);
+        EXPECT_LT(techniques::encodedTree(tree).size() / techniques::kRecordBytes - 2, 16384u);
       }
     }
   }
@@ -188,8 +189,7 @@ TEST(FacetTrees, WhatFragmentsMeetIsWhatRaysDoNotPass) {
 /// Places as fragments read them (list_vertices.glsl, facet_tree.glsl).
 class Records {
  public:
-  explicit Records(const FacetTree& tree) : bytes_(techniques::recordsOf(tree) * techniques::kRecordBytes) {
-    techniques::encodeTree(tree, bytes_.data());
+  explicit Records(const FacetTree& tree) : bytes_(techniques::encodedTree(tree)) {
     const std::uint8_t* first = at(0);
     step = glm::vec3(std::exp2(first[6] - 128.0f), 0.0f, std::exp2(first[7] - 128.0f));
     step.y = step.x;
@@ -215,23 +215,46 @@ class Records {
   std::vector<std::uint8_t> bytes_;
 };
 
-void expectVertex(const Records& records, std::size_t at, const glm::vec3& point) {
-  const glm::vec3 away = glm::abs(records.vertex(at) - point);
+bool isVertex(const Records& records, const glm::vec3& stored, const glm::vec3& point) {
   // Half a step, and what is lost where single precision counts from the centre.
-  EXPECT_TRUE(glm::all(glm::lessThanEqual(away, 0.5f * records.step + 2e-7f * glm::abs(records.center))));
+  return glm::all(
+      glm::lessThanEqual(glm::abs(stored - point), 0.5f * records.step + 2e-7f * glm::abs(records.center)));
+}
+void expectVertex(const Records& records, std::size_t at, const glm::vec3& point) {
+  EXPECT_TRUE(isVertex(records, records.vertex(at), point));
 }
 
-/// The record after the facets of a leaf, the first of which stands in record `at`.
+/// The record after the facets of a leaf, the first of which stands in record `at`; how many records they
+/// take is added to `vertices`.
 std::size_t checkFacets(const Records& records, std::size_t at, const FacetTree& tree,
-                        const FacetTree::Node& node) {
-  for (std::uint32_t l = node.firstLoop; l < node.firstLoop + node.loopCount; ++l) {
-    EXPECT_EQ(tree.loops[l].count, 3u);
-    for (std::uint32_t k = 0; k < 3; ++k, ++at) {
-      expectVertex(records, at, tree.points[tree.loops[l].first + k]);
-      const bool ends = k == 2 && l + 1 == node.firstLoop + node.loopCount;
-      EXPECT_EQ(records.at(at)[6], ends ? 1 : 0);
+                        const FacetTree::Node& node, std::size_t& vertices) {
+  // As fragments walk strips.
+  std::array<glm::vec3, 3> last{};
+  std::vector<bool> met(node.loopCount, false);
+  for (bool ends = false; !ends; ++at, ++vertices) {
+    const int tag = records.at(at)[6], way = records.at(at)[7] - 1;
+    EXPECT_LE(tag, 3);
+    ends = (tag & 1) != 0;
+    last = {(tag & 2) != 0 ? last[0] : last[1], last[2], records.vertex(at)};
+    if (way == 0) continue;
+    EXPECT_EQ(std::abs(way), 1);
+    const std::array<glm::vec3, 3> facet = way > 0 ? last : std::array{last[1], last[0], last[2]};
+    std::uint32_t found = 0;
+    for (; found < node.loopCount; ++found) {
+      const FacetTree::Loop& loop = tree.loops[node.firstLoop + found];
+      EXPECT_EQ(loop.count, 3u);
+      const auto same = [&](std::size_t turn) {
+        for (std::size_t k = 0; k < 3; ++k) {
+          if (!isVertex(records, facet[k], tree.points[loop.first + (k + turn) % 3])) return false;
+        }
+        return true;
+      };
+      if (!met[found] && (same(0) || same(1) || same(2))) break;
     }
+    EXPECT_LT(found, node.loopCount) << "a facet that the leaf has not, or twice, or turned round";
+    if (found < node.loopCount) met[found] = true;
   }
+  EXPECT_EQ(std::ranges::count(met, true), std::ptrdiff_t(node.loopCount));
   return at;
 }
 
@@ -251,6 +274,7 @@ std::size_t checkContour(const Records& records, std::size_t at, const FacetTree
 
 TEST(FacetTrees, RecordsSayWhatTreesHold) {
   for (const auto& shape : {bumpyBall(60, 40), bentSheet(40), coil(40, 60)}) {
+    std::size_t facets = 0, stripVertices = 0;
     const Subject subject(shape, {1.0, 5.0, 0.5}, 0.5);
     const outlines::FacetTrees trees = outlines::facetTrees(subject.surface);
     ASSERT_FALSE(trees.towards.empty());
@@ -274,7 +298,7 @@ TEST(FacetTrees, RecordsSayWhatTreesHold) {
         EXPECT_EQ((codes & 16384) != 0, contour);
         end.push_back(at + (codes & 16383));
         ++at;
-        if (node.isLeaf) at = checkFacets(records, at, tree, node);
+        if (node.isLeaf) at = checkFacets(records, at, tree, node, stripVertices), facets += node.loopCount;
         if (contour) contours.push_back({&node, static_cast<std::size_t>(records.number(at++, 0))});
       }
       first.push_back(at);
@@ -287,6 +311,8 @@ TEST(FacetTrees, RecordsSayWhatTreesHold) {
       }
       EXPECT_EQ(at, records.count());
     }
+    // Of a leaf's two to four facets, where two hang together, they take two vertices each in place of three.
+    EXPECT_LE(2 * stripVertices, 5 * facets);
   }
 }
 

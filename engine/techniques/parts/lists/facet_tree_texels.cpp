@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "techniques/parts/lists/facet_strips.hpp"
 #include "techniques/parts/lists/list_codes.hpp"
 
 namespace halfshadow::techniques {
@@ -14,7 +15,7 @@ namespace {
 constexpr float kReach = 32000.0f;
 constexpr std::size_t kLeaf = 32768, kContour = 16384;
 /// Tags of facet_tree.glsl.
-constexpr int kStarts = 32, kEnds = 1;
+constexpr int kStarts = 32, kTurns = 2, kEnds = 1;
 
 void putNumber(std::size_t number, std::uint8_t* bytes) {
   bytes[0] = static_cast<std::uint8_t>(number >> 8);
@@ -33,9 +34,17 @@ std::size_t contourRecords(const outlines::FacetTree& tree, const outlines::Face
   return records;
 }
 
-/// Of a box and its facets, or of a box and what leads to its contour.
-std::size_t nodeRecords(const outlines::FacetTree::Node& node) {
-  return 1 + (node.isLeaf ? 3 * node.loopCount : hasContour(node) ? 1 : 0);
+/// Byte 7 of a strip's vertex.
+int facetCode(StripVertex::Facet facet) {
+  switch (facet) {
+    case StripVertex::Facet::none:
+      return 1;
+    case StripVertex::Facet::along:
+      return 2;
+    case StripVertex::Facet::against:
+      return 0;
+  }
+  return 1;
 }
 
 std::uint8_t boxCode(float steps) {
@@ -44,21 +53,33 @@ std::uint8_t boxCode(float steps) {
 
 class TreeEncoder {
  public:
-  TreeEncoder(const outlines::FacetTree& tree, std::uint8_t* texels) : tree_(tree), next_(texels) {
+  explicit TreeEncoder(const outlines::FacetTree& tree)
+      : tree_(tree), firstStripVertex_(tree.nodes.size() + 1) {
     const glm::vec3 low = tree.nodes.front().low, high = tree.nodes.front().high;
     placement_ = placementAbout(0.5f * (low + high), 0.5f * (high - low) / kReach);
+    FacetStrips strips;
+    strips_.reserve(3 * tree.loops.size());
+    for (std::size_t n = 0; n < tree.nodes.size(); ++n) {
+      firstStripVertex_[n] = strips_.size();
+      if (tree.nodes[n].isLeaf) strips.append(tree, tree.nodes[n], strips_);
+    }
+    firstStripVertex_.back() = strips_.size();
   }
 
-  void encode() {
-    encodePlacement(placement_, take());
+  std::vector<std::uint8_t> encode() {
     std::vector<std::size_t> before(tree_.nodes.size() + 1, 0);
-    for (std::size_t n = 0; n < tree_.nodes.size(); ++n)
-      before[n + 1] = before[n] + nodeRecords(tree_.nodes[n]);
+    std::size_t ofContours = 0;
+    for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
+      before[n + 1] = before[n] + nodeRecords(n);
+      if (hasContour(tree_.nodes[n])) ofContours += contourRecords(tree_, tree_.nodes[n]);
+    }
     std::size_t contour = 2 + before.back();
+    texels_.reserve((contour + ofContours) * kRecordBytes);
+    encodePlacement(placement_, take());
     for (std::size_t n = 0; n < tree_.nodes.size(); ++n) {
       const outlines::FacetTree::Node& node = tree_.nodes[n];
       putBox(node, before[node.end] - before[n]);
-      if (node.isLeaf) putFacets(node);
+      if (node.isLeaf) putFacets(n);
       if (!hasContour(node)) continue;
       putNumber(contour, take());
       contour += contourRecords(tree_, node);
@@ -67,14 +88,20 @@ class TreeEncoder {
     for (const outlines::FacetTree::Node& node : tree_.nodes) {
       if (hasContour(node)) putContour(node);
     }
+    return std::move(texels_);
   }
 
  private:
   /// The next record, blank.
   std::uint8_t* take() {
-    std::uint8_t* const record = next_;
-    next_ += kRecordBytes;
-    return std::fill_n(record, kRecordBytes, std::uint8_t{0}), record;
+    texels_.resize(texels_.size() + kRecordBytes);
+    return texels_.data() + texels_.size() - kRecordBytes;
+  }
+
+  /// Of a box and its facets, or of a box and what leads to its contour.
+  std::size_t nodeRecords(std::size_t node) const {
+    return 1 + firstStripVertex_[node + 1] - firstStripVertex_[node] +
+           (hasContour(tree_.nodes[node]) ? 1 : 0);
   }
 
   void putBox(const outlines::FacetTree::Node& node, std::size_t skip) {
@@ -87,18 +114,20 @@ class TreeEncoder {
     putNumber(skip + (node.isLeaf ? kLeaf : hasContour(node) ? kContour : 0), record + 6);
   }
 
-  void putVertex(const glm::vec3& point, int tag) {
+  std::uint8_t* putVertex(const glm::vec3& point, int tag) {
     std::uint8_t* const record = take();
     const glm::vec3 steps = (point - placement_.center) / placement_.step;
     for (int k = 0; k < 3; ++k) putCode(steps[k], record + 2 * k);
     record[6] = static_cast<std::uint8_t>(tag);
+    return record;
   }
 
-  void putFacets(const outlines::FacetTree::Node& node) {
-    for (std::uint32_t l = 0; l < node.loopCount; ++l) {
-      for (std::uint32_t corner = 0; corner < 3; ++corner)
-        putVertex(tree_.points[tree_.loops[node.firstLoop + l].first + corner],
-                  corner == 2 && l + 1 == node.loopCount ? kEnds : 0);
+  void putFacets(std::size_t leaf) {
+    const std::size_t end = firstStripVertex_[leaf + 1];
+    for (std::size_t v = firstStripVertex_[leaf]; v < end; ++v) {
+      const StripVertex& vertex = strips_[v];
+      const int tag = (vertex.turns ? kTurns : 0) + (v + 1 == end ? kEnds : 0);
+      putVertex(vertex.ti, tag)[7] = static_cast<std::uint8_t>(facetCode(vertex.facet));
     }
   }
 
@@ -113,20 +142,15 @@ class TreeEncoder {
   }
 
   const outlines::FacetTree& tree_;
-  std::uint8_t* next_;
   ListPlacement placement_;
+  std::vector<StripVertex> strips_;
+  std::vector<std::size_t> firstStripVertex_;  ///< in `strips_`, by node, and after the last
+  std::vector<std::uint8_t> texels_;
 };
 }  // namespace
 
-std::size_t recordsOf(const outlines::FacetTree& tree) {
-  std::size_t records = 2;
-  for (const outlines::FacetTree::Node& node : tree.nodes)
-    records += nodeRecords(node) + (hasContour(node) ? contourRecords(tree, node) : 0);
-  return records;
-}
-
-void encodeTree(const outlines::FacetTree& tree, std::uint8_t* texels) {
-  TreeEncoder(tree, texels).encode();
+std::vector<std::uint8_t> encodedTree(const outlines::FacetTree& tree) {
+  return TreeEncoder(tree).encode();
 }
 
 }  // namespace halfshadow::techniques

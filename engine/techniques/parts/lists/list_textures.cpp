@@ -112,20 +112,21 @@ class PlacedTrees {
     for (const ReceiverLists& receiver : receivers) {
       for (const outlines::FacetTree* tree : receiver.lists->trees) {
         if (!first_.try_emplace(tree, count_).second) continue;
-        order_.push_back(tree);
-        count_ += recordsOf(*tree);
+        records_.push_back(encodedTree(*tree));
+        count_ += records_.back().size() / kRecordBytes;
       }
     }
   }
   std::size_t recordCount() const { return count_; }
   std::size_t firstOf(const outlines::FacetTree* tree) const { return first_.at(tree); }
-  void encode(std::uint8_t* texels) const {
-    for (const outlines::FacetTree* tree : order_) encodeTree(*tree, texels + firstOf(tree) * kRecordBytes);
+  /// One after the other.
+  void copyTo(std::uint8_t* texels) const {
+    for (const std::vector<std::uint8_t>& records : records_) texels = std::ranges::copy(records, texels).out;
   }
 
  private:
   std::map<const outlines::FacetTree*, std::size_t> first_;
-  std::vector<const outlines::FacetTree*> order_;
+  std::vector<std::vector<std::uint8_t>> records_;
   std::size_t count_ = 0;
 };
 
@@ -170,7 +171,7 @@ bool encodeLists(std::span<const ReceiverLists> receivers, int maxRows, EncodedL
   std::vector<std::uint8_t> recordTexels = blankTexels(result.records);
   result.tiles = placeTiles(receivers, result.firstTexel);
   std::vector<std::uint8_t> tileTexels = blankTexels(result.tiles);
-  trees.encode(recordTexels.data());
+  trees.copyTo(recordTexels.data());
   std::size_t next = trees.recordCount();
   for (std::size_t r = 0; r < receivers.size(); ++r) {
     const ReceiverLists& receiver = receivers[r];
