@@ -150,6 +150,11 @@ void addDriverArguments(CLI::App& app, DriverArguments& arguments) {
                  "(names: `halfshadow info`; default: none)")
       ->check(forceProblem)
       ->allow_extra_args(false);
+  app.add_option(
+         "--threads", arguments.threads,
+         "threads that the engine may use where lists of dense casters are made; pictures are the same")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
 }
 
 void addSettingArguments(CLI::App& app, SettingArguments& arguments) {
@@ -210,6 +215,7 @@ Result<scene::SceneDescription> openScene(const SceneArguments& arguments) {
 Result<std::unique_ptr<measure::EngineSession>> openSession(const DriverArguments& arguments) {
   measure::SessionOptions options{.driver = arguments.driver, .eglLibrary = arguments.eglLibrary};
   options.deviceProfile = arguments.deviceProfile;
+  options.threads = arguments.threads;
   for (const std::string& text : arguments.force) options.forcedOff.push_back(text.substr(0, text.find('=')));
   auto session = measure::EngineSession::open(options);
   if (!session && session.error().code == ErrorCode::invalidArgument && !options.forcedOff.empty()) {

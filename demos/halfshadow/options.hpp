@@ -40,6 +40,7 @@ struct TruthArguments {
 struct DriverArguments {
   std::string driver = "default", eglLibrary, deviceProfile = "auto";
   std::vector<std::string> force;  ///< "depth-texture=off"
+  int threads = 1;
 };
 
 struct SettingArguments {
@@ -57,7 +58,7 @@ void addSceneArguments(CLI::App& app, SceneArguments& arguments);
 /// --size.
 void addSizeArgument(CLI::App& app, SizeArguments& arguments);
 void addTruthArguments(CLI::App& app, TruthArguments& arguments);
-/// --driver, --egl-library, --force, --device-profile.
+/// --driver, --egl-library, --force, --device-profile, --threads.
 void addDriverArguments(CLI::App& app, DriverArguments& arguments);
 /// --set.
 void addSettingArguments(CLI::App& app, SettingArguments& arguments);

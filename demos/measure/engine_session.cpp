@@ -107,6 +107,7 @@ Result<std::unique_ptr<EngineSession>> EngineSession::openIn(const HostContext& 
                                                              const SessionOptions& options) {
   std::unique_ptr<EngineSession> session(new EngineSession);
   session->options_ = options;
+  session->threads_ = WorkerThreads(options.threads);
   session->host_ = context;
   if (Status status = session->renewEngine(); !status) return status.error();
   return session;
@@ -123,7 +124,9 @@ Status EngineSession::renewEngine() {
                                 .getProcAddressUser = host_.user,
                                 .forcedOff = forcedOff.data(),
                                 .forcedOffCount = forcedOff.size(),
-                                .hostState = options_.hostState},
+                                .hostState = options_.hostState,
+                                .parallelFor = threads_.count() > 1 ? WorkerThreads::parallelFor : nullptr,
+                                .parallelForUser = &threads_},
                                outcome));
   if (!outcome.ok()) return toStatus(outcome);
   auto measured = deviceSettings(options_.deviceProfile, engine_->driver().renderer);

@@ -13,6 +13,7 @@
 #include "egl/headless.hpp"
 #include "halfshadow/halfshadow.hpp"
 #include "scene/scene_description.hpp"
+#include "threads/worker_threads.hpp"
 
 namespace halfshadow::measure {
 
@@ -20,6 +21,7 @@ struct SessionOptions {
   std::string driver = "default";        ///< see HeadlessOptions::driver
   std::string eglLibrary;                ///< see HeadlessOptions::eglLibrary
   std::vector<std::string> forcedOff{};  ///< capability names
+  int threads = 1;                       ///< that the engine may use, the calling one among them
   std::string deviceProfile = "auto";    ///< see deviceSettings
   HostState hostState = HostState::leaveDirty;
 };
@@ -95,6 +97,7 @@ class EngineSession {
   SessionOptions options_;
   std::unique_ptr<HeadlessContext> context_;  ///< null in a context of the caller's
   HostContext host_;
+  WorkerThreads threads_{1};
   std::unique_ptr<Engine> engine_;
   std::vector<ObjectId> objectIds_;
   std::vector<scene::SceneObject> objects_;  ///< as loaded, without images; meshes are shared

@@ -55,7 +55,9 @@ HalfshadowEngine* halfshadow_create(const HalfshadowEngineDesc* desc, Halfshadow
                                     .forcedOff = desc->forced_off,
                                     .forcedOffCount = desc->forced_off_count,
                                     .hostState = static_cast<halfshadow::HostState>(desc->host_state),
-                                    .programProofs = desc->program_proofs},
+                                    .programProofs = desc->program_proofs,
+                                    .parallelFor = desc->parallel_for,
+                                    .parallelForUser = desc->parallel_for_user},
                                    outcome);
     if (engine) {
       made.reset(new (std::nothrow) HalfshadowEngine);

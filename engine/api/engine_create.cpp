@@ -87,6 +87,7 @@ Engine* Engine::State::create(const EngineDesc& desc, Outcome& outcome) {
   State& state = *engine->state_;
   state.getProcAddress = desc.getProcAddress;
   state.getProcAddressUser = desc.getProcAddressUser;
+  state.workers = Workers(desc.parallelFor, desc.parallelForUser);
   state.contextOptions.forcedOff = std::move(*forcedOff);
   if (desc.shaderFolder) state.shaderFolder = desc.shaderFolder;
   state.hostState = desc.hostState;

@@ -214,7 +214,8 @@ SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& reque
            .receivers = frame.receivers,
            .shadowlessReceivers = cache.shadowlessReceivers.values(),
            .contentKey = request.contentKey,
-           .sceneKey = request.sceneKey},
+           .sceneKey = request.sceneKey,
+           .workers = workers},
           std::move(splitReason)};
 }
 

@@ -165,6 +165,7 @@ struct Engine::State {
   // What the context was made with, for the next one.
   void* (*getProcAddress)(const char* name, void* user) = nullptr;
   void* getProcAddressUser = nullptr;
+  Workers workers;  ///< the host's, which it lends to render()
   gl::ContextOptions contextOptions;
   std::string shaderFolder;
 

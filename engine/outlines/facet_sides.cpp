@@ -105,9 +105,10 @@ bool sees(const NearSurface::Facet& facet, const SubLight& light) {
 int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverSet& receivers) {
   const NearSurface::Facet& facet = surface.facets[f];
   if (receivers.patches.empty()) return sideOf(facet.plane, receivers.box);
-  if (surface.sides.size() < surface.facets.size()) surface.sides.resize(surface.facets.size());
-  NearSurface::Side& known = surface.sides[f];
-  if (known.tile != receivers.tile) known = {receivers.tile, sideOf(surface, facet, receivers)};
+  std::vector<SideMemory::Side>& sides = receivers.memory.of[surface.number].sides;
+  if (sides.size() < surface.facets.size()) sides.resize(surface.facets.size());
+  SideMemory::Side& known = sides[f];
+  if (known.tile != receivers.memory.tile) known = {receivers.memory.tile, sideOf(surface, facet, receivers)};
   return known.side;
 }
 
@@ -161,14 +162,15 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
   }
 }
 
-Interior interiorOf(const NearSurface& surface, const TangentBox& receivers) {
+Interior interiorOf(const NearSurface& surface, const TangentBox& receivers, SideMemory& memory) {
   if (!surface.closed || !surface.convex || surface.cut || surface.facets.empty()) return Interior::outside;
-  if (sideOf(surface.facets[surface.separator].plane, receivers) > 0) return Interior::outside;
+  std::uint32_t& separator = memory.of[surface.number].separator;
+  if (sideOf(surface.facets[separator].plane, receivers) > 0) return Interior::outside;
   bool inside = true;
   for (std::uint32_t f = 0; f < surface.facets.size(); ++f) {
     const int side = sideOf(surface.facets[f].plane, receivers);
     if (side > 0) {
-      surface.separator = f;
+      separator = f;
       return Interior::outside;
     }
     inside &= side < 0;

@@ -17,13 +17,29 @@ enum class FacetChoice {
   asReceiversSee,  ///< those that receivers are behind of: exact for every point of the light
 };
 
+/// Working memory of what is asked about surfaces, of one thread at a time.
+struct SideMemory {
+  struct Side {
+    std::uint64_t tile = 0;
+    int side = 0;  ///< 1 all outside, -1 all inside, 0 some on either, kOwnFacet
+  };
+  struct OfSurface {
+    /// On which side of each facet the receivers of a tile lie, asked for by each sub-light.
+    std::vector<Side> sides;
+    /// A facet that some receivers were all outside of. Their neighbours mostly are, too.
+    std::uint32_t separator = 0;
+  };
+  std::vector<OfSurface> of;  ///< by number of the surface
+  std::uint64_t tile = 0;     ///< a number of its own for each set of receivers with patches
+};
+
 /// Receivers that share a list.
 struct ReceiverSet {
   const TangentBox& box;
   const ListSpace& space;
+  SideMemory& memory;
   /// Their facets where they are few and known exactly; else empty.
-  std::span<const ReceiverPatch> patches;
-  std::uint64_t tile = 0;  ///< a number of its own for each set with patches
+  std::span<const ReceiverPatch> patches{};
 };
 
 /// Where a part of the light lies of a facet's plane: 1 all on its outer side, -1 all on the inner, 0 some on
@@ -61,7 +77,7 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
 
 /// Where receivers stand of a closed convex surface; `outside` also of one that is not, or was cut.
 enum class Interior { inside, outside, unknown };
-Interior interiorOf(const NearSurface& surface, const TangentBox& receivers);
+Interior interiorOf(const NearSurface& surface, const TangentBox& receivers, SideMemory& memory);
 /// Whether all of the light's part lies outside of it.
 bool hidesFromInside(const NearSurface& surface, const SubLight& light);
 
@@ -76,7 +92,7 @@ OwnHorizon ownHorizon(const NearSurface& surface, const SubLight& light, const R
 /// Whether the centre of the light's part is on the facet's outer side.
 bool sees(const NearSurface::Facet& facet, const SubLight& light);
 /// On which side of facet `f` all receivers are: 1 outside, -1 inside, 0 some on either, or kOwnFacet. Kept
-/// in the surface for receivers that have patches.
+/// in their memory for receivers that have patches.
 int sideOfReceivers(const NearSurface& surface, std::uint32_t f, const ReceiverSet& receivers);
 
 }  // namespace halfshadow::outlines

@@ -192,23 +192,21 @@ NearSurfaces::NearSurfaces(std::span<const scene::PlacedCaster> casters, const L
     firstPart_.push_back(parts);
     parts += caster.mesh->parts().size();
   }
-  made_.resize(kSolids * parts);
+  count_ = kSolids * parts;
+  slots_ = std::make_unique<Slot[]>(count_);
 }
 
 const NearSurface& NearSurfaces::of(std::uint32_t object, std::uint32_t part, Solid solid) {
   const std::size_t number = kSolids * (firstPart_[object] + part) + static_cast<std::size_t>(solid);
-  std::unique_ptr<NearSurface>& made = made_[number];
-  if (!made) {
-    made = std::make_unique<NearSurface>(nearSurface(casters_[object], part, space_, minHeight_, solid));
-    made->number = number;
-  }
-  return *made;
+  return slots_[number].surface.get([&] {
+    NearSurface made = nearSurface(casters_[object], part, space_, minHeight_, solid);
+    made.number = number;
+    return made;
+  });
 }
 
 const FacetTrees& NearSurfaces::treesOf(const NearSurface& surface) {
-  const auto [found, isNew] = trees_.try_emplace(&surface);
-  if (isNew) found->second = facetTrees(surface);
-  return found->second;
+  return slots_[surface.number].trees.get([&] { return facetTrees(surface); });
 }
 
 }  // namespace halfshadow::outlines

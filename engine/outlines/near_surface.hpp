@@ -8,10 +8,11 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
 #include <glm/glm.hpp>
-#include <map>
 #include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
 
@@ -51,15 +52,7 @@ struct NearSurface {
   std::vector<Facet> facets;
   glm::vec3 low{1e30f}, high{-1e30f};  ///< bounds of all, in (t, i)
   std::size_t number = 0;              ///< among those that one NearSurfaces made or will make
-  /// Working memory: on which side of each facet the receivers of a tile lie, asked for by each sub-light.
-  struct Side {
-    std::uint64_t tile = 0;
-    int side = 0;  ///< 1 all outside, -1 all inside, 0 some on either, kOwnFacet
-  };
-  mutable std::vector<Side> sides;
-  /// Working memory: a facet that some receivers were all outside of. Their neighbours mostly are, too.
-  mutable std::uint32_t separator = 0;
-  bool closed = true;   ///< else a sheet, whose facets cover from both sides
+  bool closed = true;                  ///< else a sheet, whose facets cover from both sides
   bool convex = false;  ///< and closed, or even: cut at any height the boundary of its facets tells all
   bool whole = false;   ///< the caster has no other part
   bool cut = false;     ///< it reaches through the light's plane
@@ -79,7 +72,7 @@ enum class Solid {
 NearSurface nearSurface(const scene::PlacedCaster& caster, std::uint32_t part, const ListSpace& space,
                         double minHeight, Solid solid = Solid::within);
 
-/// Surfaces of one light's casters, each made when first asked for.
+/// Surfaces of one light's casters, each made when first asked for, by whatever thread.
 class NearSurfaces {
  public:
   NearSurfaces() = default;
@@ -89,19 +82,41 @@ class NearSurfaces {
   /// Of a surface that of() gave; made when first asked for. The reference lasts as long as this object.
   const FacetTrees& treesOf(const NearSurface& surface);
   const ListSpace& space() const { return space_; }
-  std::size_t count() const { return made_.size(); }  ///< NearSurface::number is less
-  /// For ReceiverSet::tile.
-  std::uint64_t nextTile() { return ++tile_; }
+  std::size_t count() const { return count_; }  ///< NearSurface::number is less
 
  private:
+  /// One thread makes it, others wait; it is tried again where making it failed.
+  template <typename T>
+  class Lazy {
+   public:
+    template <typename Make>
+    const T& get(Make&& make) {
+      if (T* const made = ready_.load(std::memory_order_acquire)) return *made;
+      const std::lock_guard lock(mutex_);
+      if (!made_) {
+        made_ = std::make_unique<T>(make());
+        ready_.store(made_.get(), std::memory_order_release);
+      }
+      return *made_;
+    }
+
+   private:
+    std::atomic<T*> ready_{nullptr};
+    std::mutex mutex_;
+    std::unique_ptr<T> made_;
+  };
+  struct Slot {
+    Lazy<NearSurface> surface;
+    Lazy<FacetTrees> trees;
+  };
+
   std::vector<scene::PlacedCaster> casters_;
   ListSpace space_;
   double minHeight_ = 0.0;
-  std::uint64_t tile_ = 0;
   static constexpr std::size_t kSolids = 3;
-  std::vector<std::size_t> firstPart_;              ///< of each caster, among the parts of all
-  std::vector<std::unique_ptr<NearSurface>> made_;  ///< by part and Solid; asked for in each tile
-  std::map<const NearSurface*, FacetTrees> trees_;
+  std::vector<std::size_t> firstPart_;  ///< of each caster, among the parts of all
+  std::size_t count_ = 0;
+  std::unique_ptr<Slot[]> slots_;  ///< by part and Solid; asked for in each tile
 };
 
 }  // namespace halfshadow::outlines

@@ -3,6 +3,8 @@
 #include "outlines/tile_lists.hpp"
 
 #include <algorithm>
+#include <memory>
+#include <mutex>
 
 #include "outlines/casters_apart.hpp"
 #include "outlines/reached_facets.hpp"
@@ -13,18 +15,6 @@ namespace {
 /// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
 /// few vertices.
 constexpr int kBlock = 8;
-/// Working memory.
-struct ListScratch {
-  SimplifyScratch simplify;
-  CasterLoops simplified;
-  std::vector<std::uint8_t> taken;
-  /// Of each surface, by its number: the sides of it that the sub-light's entries so far stand for, a bit
-  /// each; and those that have some.
-  std::vector<std::uint8_t> sidesKnown;
-  std::vector<std::size_t> knownSurfaces;
-  std::vector<TreeCall> calls;
-};
-
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
   /// A caster among whose surfaces some receivers of the block stand: its faces matter there.
@@ -56,6 +46,26 @@ struct BlockCasters {
     partialCount = 0;
     near.clear();
   }
+};
+
+/// Working memory of one thread.
+struct ListScratch {
+  ListScratch(std::size_t surfaces, std::size_t subLights)
+      : sides{.of = std::vector<SideMemory::OfSurface>(surfaces)},
+        facets(surfaces),
+        block(subLights),
+        sidesKnown(surfaces) {}
+  SideMemory sides;
+  ReachedFacets facets;
+  std::vector<BlockCasters> block;  ///< by sub-light
+  SimplifyScratch simplify;
+  CasterLoops simplified;
+  std::vector<std::uint8_t> taken;
+  /// Of each surface, by its number: the sides of it that the sub-light's entries so far stand for, a bit
+  /// each; and those that have some.
+  std::vector<std::uint8_t> sidesKnown;
+  std::vector<std::size_t> knownSurfaces;
+  std::vector<TreeCall> calls;
 };
 
 /// Appends what the fragments walk. Of loops that all receivers lie behind, edges that cover nothing are left
@@ -132,9 +142,8 @@ float deepestOf(const CasterLoops& caster) {
   return caster.isRoom ? caster.deepest : std::min(caster.low.z, caster.deepest);
 }
 
-void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, ReachedFacets& facets,
-                 const TangentBox& receivers, const ListedReceiver& receiver, ListScratch& scratch,
-                 BlockCasters& result) {
+void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, const TangentBox& receivers,
+                 const ListedReceiver& receiver, ListScratch& scratch, BlockCasters& result) {
   result.full = false;
   result.clear();
   CasterLoops& simplified = scratch.simplified;
@@ -157,7 +166,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, ReachedFace
     const std::size_t most = near.surface->spread ? ~std::size_t{0}
                              : isOwn              ? receiver.mostOwnFacets
                                                   : receiver.mostOthersFacets;
-    const std::span<const std::uint32_t> all = facets.ofBlock(*near.surface, most);
+    const std::span<const std::uint32_t> all = scratch.facets.ofBlock(*near.surface, most);
     if (all.empty()) return true;
     const bool tooMany = all.size() > most;
     // The two sides of a sheet cover the same ground twice: they are two casters among its surfaces, too.
@@ -199,7 +208,7 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, ReachedFace
     }
     if (caster.convex && !caster.enclosesLight && caster.object != receiver.ownObject) {
       const NearSurface& surface = surfaces.of(caster.object, caster.part);
-      const Interior interior = interiorOf(surface, receivers);
+      const Interior interior = interiorOf(surface, receivers, scratch.sides);
       if (interior != Interior::outside && hidesFromInside(surface, loops.light)) {
         result.full = result.full || interior == Interior::inside;
         around = &surface;
@@ -214,9 +223,11 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, ReachedFace
   if (result.full) result.clear();
 }
 
-TileList tileList(std::span<const SubLightLoops> subLights, std::span<const BlockCasters> block,
-                  const ReceiverSet& set, const ListedReceiver& receiver, ListedEdges edges,
-                  NearSurfaces& surfaces, ReachedFacets& reached, ListScratch& scratch, TileLists& lists) {
+TileList tileList(std::span<const SubLightLoops> subLights, const ReceiverSet& set,
+                  const ListedReceiver& receiver, ListedEdges edges, NearSurfaces& surfaces,
+                  ListScratch& scratch, TileLists& lists) {
+  const std::span<const BlockCasters> block = scratch.block;
+  ReachedFacets& reached = scratch.facets;
   std::vector<ListRecord>& records = lists.records;
   const TangentBox& receivers = set.box;
   TileList list{.first = static_cast<std::uint32_t>(records.size())};
@@ -238,8 +249,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     };
     for (const BlockCasters::Partial& partial : block[s].partial()) {
       if (full) break;
-      const bool inside =
-          partial.around != nullptr && interiorOf(*partial.around, receivers) == Interior::inside;
+      const bool inside = partial.around != nullptr &&
+                          interiorOf(*partial.around, receivers, scratch.sides) == Interior::inside;
       add(inside ? Coverage::full
                  : simplify(partial.loops, loops.light, receivers, sides, scratch.simplify, simplified));
     }
@@ -248,7 +259,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
     for (const auto& [caster, surface, around, deepest, choice, side, known, dense] : block[s].near) {
       if (full) break;
       const std::size_t own = records.size();
-      if (around != nullptr && interiorOf(*around, receivers) == Interior::inside) {
+      if (around != nullptr && interiorOf(*around, receivers, scratch.sides) == Interior::inside) {
         full = true;
       } else if (deepest >= receivers.iHigh) {
         full = full || caster->isRoom;
@@ -276,8 +287,8 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
         const std::span<const std::uint32_t> facets = reached.ofTile(*surface);
         if (facets.empty()) continue;
         add(simplify(*surface, facets, side, loops.light, reached.lightsOf(*surface, s, loops.light),
-                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space}, sides, choice,
-                     scratch.simplify, simplified));
+                     isOwn ? set : ReceiverSet{.box = receivers, .space = set.space, .memory = set.memory},
+                     sides, choice, scratch.simplify, simplified));
         // The sides of a sheet cover the same ground.
         const bool sided = !surface->closed && !isOwn && records.size() > own;
         if (sided && firstSide == surface) records[own - 1].firstSide = true;
@@ -311,45 +322,122 @@ TileList tileList(std::span<const SubLightLoops> subLights, std::span<const Bloc
   if (list.count > 0) records.back().end = ListRecord::End::list;
   return list;
 }
+/// What all lists of a receiver are made from.
+struct ListJob {
+  std::span<const SubLightLoops> subLights;
+  NearSurfaces& surfaces;
+  const ReceiverTiles& tiles;
+  const ListedReceiver& receiver;
+  ListedEdges edges;
+  std::size_t mostRecords;
+
+  int rows() const { return (tiles.rows + kBlock - 1) / kBlock; }  ///< of blocks
+  std::size_t firstTileOf(int row) const {
+    return static_cast<std::size_t>(std::min(row * kBlock, tiles.rows)) *
+           static_cast<std::size_t>(tiles.columns);
+  }
+};
+
+/// Appends the lists of a row of blocks. `firstTile`: the one that TileLists::tiles begins with.
+void appendRow(const ListJob& job, int row, ListScratch& scratch, std::size_t firstTile, TileLists& lists) {
+  const ReceiverTiles& tiles = job.tiles;
+  const int y0 = row * kBlock;
+  for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
+    const TangentBox all = blockBox(tiles, x0, y0);
+    if (all.empty()) continue;
+    lists.cutShort = lists.records.size() > job.mostRecords;
+    if (lists.cutShort) return;
+    scratch.facets.startBlock(all);
+    for (std::size_t s = 0; s < job.subLights.size(); ++s)
+      simplifyAll(job.subLights[s], job.surfaces, all, job.receiver, scratch, scratch.block[s]);
+    for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
+      for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
+        const auto tile = static_cast<std::size_t>(y * tiles.columns + x);
+        TileList& list = lists.tiles[tile - firstTile];
+        if (tiles.boxes[tile].empty()) {
+          list.litSubLights = static_cast<std::uint8_t>((1u << job.subLights.size()) - 1);
+          continue;
+        }
+        ++scratch.sides.tile;
+        list = tileList(job.subLights,
+                        {.box = tiles.boxes[tile],
+                         .space = job.surfaces.space(),
+                         .memory = scratch.sides,
+                         .patches = tiles.patchesOf(tile)},
+                        job.receiver, job.edges, job.surfaces, scratch, lists);
+        if (list.count == 0) list.first = 0;  // as where there is no receiver
+        lists.longestList = std::max(lists.longestList, list.count);
+        lists.partialTiles += list.count > 0;
+      }
+    }
+  }
+}
+
+/// Appends to `lists` those of a row of blocks that were made apart, as appendRow() had made them here.
+void joinRow(const ListJob& job, int row, const TileLists& apart, TileLists& lists) {
+  const auto before = static_cast<std::uint32_t>(lists.records.size());
+  std::vector<std::uint32_t> numberOf;
+  for (const FacetTree* tree : apart.trees) {
+    const auto found = std::ranges::find(lists.trees, tree);
+    numberOf.push_back(static_cast<std::uint32_t>(found - lists.trees.begin()));
+    if (found == lists.trees.end()) lists.trees.push_back(tree);
+  }
+  lists.records.insert(lists.records.end(), apart.records.begin(), apart.records.end());
+  for (ListRecord& record : std::span(lists.records).subspan(before)) {
+    if (record.behindFacet == ListRecord::kTree) record.tree = numberOf[record.tree];
+  }
+  for (std::size_t k = 0; k < apart.tiles.size(); ++k) {
+    TileList& list = lists.tiles[job.firstTileOf(row) + k];
+    list = apart.tiles[k];
+    if (list.count > 0) list.first += before;
+  }
+  lists.longestList = std::max(lists.longestList, apart.longestList);
+  lists.partialTiles += apart.partialTiles;
+  lists.cutShort = lists.cutShort || apart.cutShort || lists.records.size() > job.mostRecords;
+}
+
+/// Row by row on the host's threads.
+std::uint64_t makeApart(const ListJob& job, const Workers& workers, TileLists& lists) {
+  std::vector<std::unique_ptr<ListScratch>> idle;
+  std::mutex idleMutex;
+  const auto take = [&] {
+    const std::lock_guard lock(idleMutex);
+    if (idle.empty()) return std::make_unique<ListScratch>(job.surfaces.count(), job.subLights.size());
+    std::unique_ptr<ListScratch> scratch = std::move(idle.back());
+    idle.pop_back();
+    return scratch;
+  };
+  std::vector<TileLists> rows(static_cast<std::size_t>(job.rows()));
+  workers.forEach(rows.size(), [&](std::size_t r) {
+    const int row = static_cast<int>(r);
+    const std::size_t first = job.firstTileOf(row);
+    rows[r].tiles.resize(job.firstTileOf(row + 1) - first);
+    std::unique_ptr<ListScratch> scratch = take();
+    appendRow(job, row, *scratch, first, rows[r]);
+    const std::lock_guard lock(idleMutex);
+    idle.push_back(std::move(scratch));
+  });
+  for (std::size_t r = 0; r < rows.size(); ++r) joinRow(job, static_cast<int>(r), rows[r], lists);
+  std::uint64_t tests = 0;
+  for (const auto& scratch : idle) tests += scratch->facets.facetTests();
+  return tests;
+}
 }  // namespace
 
 TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
                     const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
-                    std::size_t mostRecords) {
+                    std::size_t mostRecords, const Workers& workers) {
+  const ListJob job{subLights, surfaces, tiles, receiver, edges, mostRecords};
   TileLists lists;
   lists.tiles.resize(tiles.boxes.size());
-  std::vector<BlockCasters> block(subLights.size());
-  ReachedFacets facets(surfaces.count());
-  ListScratch scratch;
-  scratch.sidesKnown.resize(surfaces.count());
-  for (int y0 = 0; y0 < tiles.rows; y0 += kBlock) {
-    for (int x0 = 0; x0 < tiles.columns; x0 += kBlock) {
-      const TangentBox all = blockBox(tiles, x0, y0);
-      if (all.empty()) continue;
-      lists.cutShort = lists.records.size() > mostRecords;
-      if (lists.cutShort) return lists;
-      facets.startBlock(all);
-      for (std::size_t s = 0; s < subLights.size(); ++s) {
-        simplifyAll(subLights[s], surfaces, facets, all, receiver, scratch, block[s]);
-      }
-      for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
-        for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
-          const auto tile = static_cast<std::size_t>(y * tiles.columns + x);
-          if (tiles.boxes[tile].empty()) {
-            lists.tiles[tile].litSubLights = static_cast<std::uint8_t>((1u << subLights.size()) - 1);
-            continue;
-          }
-          lists.tiles[tile] =
-              tileList(subLights, block,
-                       {tiles.boxes[tile], surfaces.space(), tiles.patchesOf(tile), surfaces.nextTile()},
-                       receiver, edges, surfaces, facets, scratch, lists);
-          lists.longestList = std::max(lists.longestList, lists.tiles[tile].count);
-          lists.partialTiles += lists.tiles[tile].count > 0;
-        }
-      }
-    }
+  if (workers.lent()) {
+    lists.facetTests = makeApart(job, workers, lists);
+  } else {
+    ListScratch scratch(surfaces.count(), subLights.size());
+    for (int row = 0; row < job.rows() && !lists.cutShort; ++row) appendRow(job, row, scratch, 0, lists);
+    lists.facetTests = scratch.facets.facetTests();
   }
-  lists.facetTests = facets.facetTests();
+  if (lists.cutShort) return lists;
   lists.oneSided = std::ranges::any_of(lists.records, &ListRecord::oneSided);
   lists.behindFacets = std::ranges::any_of(
       lists.records, [](const ListRecord& record) { return record.behindFacet != ListRecord::kVertex; });

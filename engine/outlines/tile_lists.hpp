@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "base/workers.hpp"
 #include "outlines/caster_loops.hpp"
 #include "outlines/receiver_tiles.hpp"
 
@@ -81,10 +82,10 @@ struct ListedReceiver {
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are
-/// made of. Stops, cut short, at `mostRecords`.
+/// made of. Stops, cut short, at `mostRecords`. `workers`: the same lists, whoever makes them.
 TileLists tileLists(std::span<const SubLightLoops> subLights, NearSurfaces& surfaces,
                     const ReceiverTiles& tiles, const ListedReceiver& receiver, ListedEdges edges,
-                    std::size_t mostRecords = ~std::size_t{0});
+                    std::size_t mostRecords = ~std::size_t{0}, const Workers& workers = {});
 
 /// Tangents in which a shadow can lie: those of the casters' points, widened by the light.
 /// `farthest`: the least i of any receiver.

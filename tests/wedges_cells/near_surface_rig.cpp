@@ -216,7 +216,7 @@ struct OwnLists {
 
 std::unique_ptr<OwnLists> ownLists(const scene::TriangleMesh& shape, double lightHalf,
                                    std::span<const outlines::SubLight> lights, Origin origin, Surface surface,
-                                   std::size_t mostOwnFacets) {
+                                   std::size_t mostOwnFacets, const Workers& workers = {}) {
   auto own = std::make_unique<OwnLists>();
   const auto built = scene::buildMesh({.positions = &shape.positions.front().x,
                                        .vertexCount = static_cast<std::uint32_t>(shape.positions.size()),
@@ -246,8 +246,9 @@ std::unique_ptr<OwnLists> ownLists(const scene::TriangleMesh& shape, double ligh
   own->surfaces = outlines::NearSurfaces(casters, own->space, 1e-3);
   own->tiles = receiverTiles({.mesh = &own->mesh, .closed = surface == Surface::closed, .withPatches = true},
                              own->space, shadowedTangents(own->loops, -10.0), 0.05, 64, 1e-3);
-  own->lists = tileLists(own->loops, own->surfaces, own->tiles,
-                         {.ownObject = 0, .mostOwnFacets = mostOwnFacets}, outlines::ListedEdges::all);
+  own->lists =
+      tileLists(own->loops, own->surfaces, own->tiles, {.ownObject = 0, .mostOwnFacets = mostOwnFacets},
+                outlines::ListedEdges::all, ~std::size_t{0}, workers);
   return own;
 }
 }  // namespace
@@ -260,6 +261,36 @@ ListCost ownListCost(const scene::TriangleMesh& shape, double lightHalf,
           .tiles = own->lists.partialTiles,
           .facets = own->mesh.indices.size() / 3,
           .records = own->lists.records.size()};
+}
+
+std::vector<double> ownListNumbers(const scene::TriangleMesh& shape, double lightHalf, Surface surface,
+                                   std::size_t mostOwnFacets, const Workers& workers) {
+  static constexpr auto kQuarters = outlines::subLights();
+  const std::unique_ptr<OwnLists> own =
+      ownLists(shape, lightHalf, kQuarters, Origin::caster, surface, mostOwnFacets, workers);
+  const outlines::TileLists& lists = own->lists;
+  std::vector<double> numbers{double(lists.longestList),    double(lists.partialTiles),
+                              double(lists.facetTests),     double(lists.oneSided),
+                              double(lists.sides),          double(lists.behindFacets),
+                              double(lists.amongReceivers), double(lists.cutShort)};
+  for (const outlines::TileList& tile : lists.tiles) {
+    for (const double number :
+         {double(tile.first), double(tile.count), double(tile.casters), double(tile.litSubLights),
+          double(tile.leadsIntoTrees), double(tile.apart), double(tile.amongReceivers)})
+      numbers.push_back(number);
+  }
+  for (const outlines::ListRecord& record : lists.records) {
+    for (const double number : {double(record.ti.x), double(record.ti.y), double(record.ti.z),
+                                double(record.subLight), double(record.startsLoop), double(record.closesLoop),
+                                double(record.oneSided), double(record.behindFacet), double(record.tree),
+                                double(record.treeFor), double(record.end), double(record.firstSide)})
+      numbers.push_back(number);
+  }
+  for (const outlines::FacetTree* tree : lists.trees) {
+    numbers.push_back(double(tree->nodes.size()));
+    for (const glm::vec3& point : tree->points) numbers.insert(numbers.end(), {point.x, point.y, point.z});
+  }
+  return numbers;
 }
 
 Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed, Origin origin,

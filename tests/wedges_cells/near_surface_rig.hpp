@@ -37,6 +37,10 @@ ListCost ownListCost(const scene::TriangleMesh& shape, double lightHalf,
 /// Where (t, i) are counted from.
 enum class Origin { light, caster };
 
+/// All that lists of a surface for its own tiles, and what they lead into, say.
+std::vector<double> ownListNumbers(const scene::TriangleMesh& shape, double lightHalf, Surface surface,
+                                   std::size_t mostOwnFacets, const Workers& workers);
+
 /// Of what lists say about a place in each facet that the light reaches, from what 256 rays to the light say.
 /// `mostOwnFacets`: as in outlines::ListedReceiver.
 Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned seed,

@@ -45,6 +45,14 @@ struct EngineDesc {
   /// What Engine::programProofs() gave at an earlier time, or null: those programs are not proven again. Of
   /// another driver, or malformed: as null. Read by create() alone.
   const char* programProofs = nullptr;
+  /// Lends threads to render(): does work(0, job) to work(count - 1, job), each once, in any order and on any
+  /// threads, the calling one among them, and returns when all have returned. Work calls neither OpenGL ES
+  /// nor the host, and nothing leaves it as an exception. Null: everything is done on the calling thread.
+  /// Pictures are the same. Worth it where wedges-cells or wedges-blended make lists for dense casters that
+  /// move.
+  void (*parallelFor)(std::size_t count, void (*work)(std::size_t index, void* job), void* job,
+                      void* user) = nullptr;
+  void* parallelForUser = nullptr;
 };
 
 /// A triangle list, copied during the call. Closed shells may be wound either way, even unlike themselves:

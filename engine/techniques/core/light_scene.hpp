@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/rect.hpp"
+#include "base/workers.hpp"
 #include "device/capabilities.hpp"
 #include "planner/light_fit.hpp"
 #include "planner/sub_lights.hpp"
@@ -61,6 +62,7 @@ struct LightScene {
   std::span<const DrawItem> shadowlessReceivers;
   std::uint64_t contentKey = 0;  ///< of light and casters
   std::uint64_t sceneKey = 0;    ///< the same with the receivers
+  Workers workers{};             ///< threads that the host lends
 
   const planner::LightFit& fit() const { return center.fit; }
 };

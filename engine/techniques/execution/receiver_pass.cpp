@@ -276,8 +276,9 @@ gl::DrawState receiverState(const ReceiverTarget& target) {
 }
 
 namespace {
-/// Depth ranges of one length that begin a step of the depth buffer apart. Not a polygon offset: drivers compile
-/// that into their own programs (llvmpipe keeps 64 of them, and compiled them anew with every object).
+/// Depth ranges of one length that begin a step of the depth buffer apart. Not a polygon offset: drivers
+/// compile that into their own programs (llvmpipe keeps 64 of them, and compiled them anew with every
+/// object).
 glm::vec2 depthRangeApart(std::ptrdiff_t place, const device::Capabilities& capabilities) {
   // Too few to bring anything forward that is not in the same place.
   constexpr std::ptrdiff_t kMostSteps = 64;

@@ -238,14 +238,14 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
                                      loops_->space(), shadows_, side * std::exp2(doublings), kMaxTiles,
                                      loops_->minHeight(), scale_);
         cached.lists = tileLists(loops_->subLights(), surfaces_, cached.tiles, receiver, request.edges,
-                                 mostRecords - records);
+                                 mostRecords - records, scene.workers);
         changed = true;
       }
       // What does not fit is not built to its end.
       records += cached.lists.records.size();
       if (item.casts) casterRecords += cached.lists.records.size();
-      if (cached.lists.longestList > longest) return tooManyVertices(request);
       if (cached.lists.cutShort || records > mostRecords) break;
+      if (cached.lists.longestList > longest) return tooManyVertices(request);
       used.push_back(item.object);
       receivers.push_back({&cached.lists, cached.tiles.columns, cached.tiles.rows});
     }
