@@ -12,9 +12,14 @@ namespace {
 class LendingHost {
  public:
   std::unique_ptr<Engine> newEngine() {
+    const std::vector<std::string> forced = forcedOffByEnvironment();
+    std::vector<const char*> forcedOff;
+    for (const std::string& name : forced) forcedOff.push_back(name.c_str());
     Outcome outcome;
     std::unique_ptr<Engine> engine(Engine::create(
         {.getProcAddress = [](const char* name, void*) { return headless()->getProcAddress(name); },
+         .forcedOff = forcedOff.data(),
+         .forcedOffCount = forcedOff.size(),
          .parallelFor = parallelFor,
          .parallelForUser = this},
         outcome));
