@@ -50,8 +50,8 @@ typedef struct HalfshadowEngineDesc {
   size_t forced_off_count;
   HalfshadowHostState host_state;
   const char* program_proofs; /* of halfshadow_program_proofs() at an earlier time, or null */
-  /* Lends threads to halfshadow_render(), or null: work(0, job) to work(count - 1, job), each once, in any order
-     and on any threads; returns when all have returned. Work calls neither OpenGL ES nor the host. */
+  /* Lends threads to halfshadow_render(), or null: work(0, job) to work(count - 1, job), each once, in any
+     order and on any threads; returns when all have returned. Work calls neither OpenGL ES nor the host. */
   void (*parallel_for)(size_t count, void (*work)(size_t index, void* job), void* job, void* user);
   void* parallel_for_user;
 } HalfshadowEngineDesc;
