@@ -15,6 +15,23 @@ namespace {
 /// Tiles along a side of a block: casters are simplified for the block first, so that its tiles start from
 /// few vertices.
 constexpr int kBlock = 8;
+
+/// What all lists of a receiver are made from.
+struct ListJob {
+  std::span<const SubLightLoops> subLights;
+  NearSurfaces& surfaces;
+  const ReceiverTiles& tiles;
+  const ListedReceiver& receiver;
+  ListedEdges edges;
+  std::size_t mostRecords;
+
+  int rows() const { return (tiles.rows + kBlock - 1) / kBlock; }  ///< of blocks
+  std::size_t firstTileOf(int row) const {
+    return static_cast<std::size_t>(std::min(row * kBlock, tiles.rows)) *
+           static_cast<std::size_t>(tiles.columns);
+  }
+};
+
 /// What may shadow a block, per sub-light.
 struct BlockCasters {
   /// A caster among whose surfaces some receivers of the block stand: its faces matter there.
@@ -142,8 +159,10 @@ float deepestOf(const CasterLoops& caster) {
   return caster.isRoom ? caster.deepest : std::min(caster.low.z, caster.deepest);
 }
 
-void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, const TangentBox& receivers,
-                 const ListedReceiver& receiver, ListScratch& scratch, BlockCasters& result) {
+void simplifyAll(const ListJob& job, const SubLightLoops& loops, const TangentBox& receivers,
+                 ListScratch& scratch, BlockCasters& result) {
+  NearSurfaces& surfaces = job.surfaces;
+  const ListedReceiver& receiver = job.receiver;
   result.full = false;
   result.clear();
   CasterLoops& simplified = scratch.simplified;
@@ -223,9 +242,10 @@ void simplifyAll(const SubLightLoops& loops, NearSurfaces& surfaces, const Tange
   if (result.full) result.clear();
 }
 
-TileList tileList(std::span<const SubLightLoops> subLights, const ReceiverSet& set,
-                  const ListedReceiver& receiver, ListedEdges edges, NearSurfaces& surfaces,
-                  ListScratch& scratch, TileLists& lists) {
+TileList tileList(const ListJob& job, const ReceiverSet& set, ListScratch& scratch, TileLists& lists) {
+  const std::span<const SubLightLoops> subLights = job.subLights;
+  const ListedReceiver& receiver = job.receiver;
+  const ListedEdges edges = job.edges;
   const std::span<const BlockCasters> block = scratch.block;
   ReachedFacets& reached = scratch.facets;
   std::vector<ListRecord>& records = lists.records;
@@ -308,7 +328,7 @@ TileList tileList(std::span<const SubLightLoops> subLights, const ReceiverSet& s
       records.back().end = ListRecord::End::subLight;
     }
   }
-  const std::size_t treed = insertTrees(calls, receivers, list.first, surfaces, lists);
+  const std::size_t treed = insertTrees(calls, receivers, list.first, job.surfaces, lists);
   list.leadsIntoTrees = treed > 0;
   list.casters = static_cast<std::uint8_t>(std::min<std::size_t>(list.casters + treed, 255));
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
@@ -319,24 +339,13 @@ TileList tileList(std::span<const SubLightLoops> subLights, const ReceiverSet& s
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&
                ((list.casters == 1 && records.back().behindFacet == ListRecord::kVertex) ||
                 castersApart(std::span(records).subspan(list.first), receivers));
-  if (list.count > 0) records.back().end = ListRecord::End::list;
+  if (list.count > 0) {
+    records.back().end = ListRecord::End::list;
+  } else {
+    list.first = 0;  // as where there is no receiver
+  }
   return list;
 }
-/// What all lists of a receiver are made from.
-struct ListJob {
-  std::span<const SubLightLoops> subLights;
-  NearSurfaces& surfaces;
-  const ReceiverTiles& tiles;
-  const ListedReceiver& receiver;
-  ListedEdges edges;
-  std::size_t mostRecords;
-
-  int rows() const { return (tiles.rows + kBlock - 1) / kBlock; }  ///< of blocks
-  std::size_t firstTileOf(int row) const {
-    return static_cast<std::size_t>(std::min(row * kBlock, tiles.rows)) *
-           static_cast<std::size_t>(tiles.columns);
-  }
-};
 
 /// Appends the lists of a row of blocks. `firstTile`: the one that TileLists::tiles begins with.
 void appendRow(const ListJob& job, int row, ListScratch& scratch, std::size_t firstTile, TileLists& lists) {
@@ -349,7 +358,7 @@ void appendRow(const ListJob& job, int row, ListScratch& scratch, std::size_t fi
     if (lists.cutShort) return;
     scratch.facets.startBlock(all);
     for (std::size_t s = 0; s < job.subLights.size(); ++s)
-      simplifyAll(job.subLights[s], job.surfaces, all, job.receiver, scratch, scratch.block[s]);
+      simplifyAll(job, job.subLights[s], all, scratch, scratch.block[s]);
     for (int y = y0; y < std::min(y0 + kBlock, tiles.rows); ++y) {
       for (int x = x0; x < std::min(x0 + kBlock, tiles.columns); ++x) {
         const auto tile = static_cast<std::size_t>(y * tiles.columns + x);
@@ -359,13 +368,12 @@ void appendRow(const ListJob& job, int row, ListScratch& scratch, std::size_t fi
           continue;
         }
         ++scratch.sides.tile;
-        list = tileList(job.subLights,
+        list = tileList(job,
                         {.box = tiles.boxes[tile],
                          .space = job.surfaces.space(),
                          .memory = scratch.sides,
                          .patches = tiles.patchesOf(tile)},
-                        job.receiver, job.edges, job.surfaces, scratch, lists);
-        if (list.count == 0) list.first = 0;  // as where there is no receiver
+                        scratch, lists);
         lists.longestList = std::max(lists.longestList, list.count);
         lists.partialTiles += list.count > 0;
       }
