@@ -215,7 +215,8 @@ SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& reque
            .shadowlessReceivers = cache.shadowlessReceivers.values(),
            .contentKey = request.contentKey,
            .sceneKey = request.sceneKey,
-           .workers = workers},
+           .workers = workers,
+           .countsFetches = frame.desc.output == Output::taps},
           std::move(splitReason)};
 }
 

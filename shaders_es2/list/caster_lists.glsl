@@ -2,8 +2,14 @@
 // Copyright (c) 2026 The Halfshadow authors
 // Walks the silhouette vertices that matter for the fragment's tile of its receiver. The including file defines
 // HS_SUB_LIGHTS, the number of sub-lights. Needs list_vertices.glsl.
+// HS_ON_SCREEN: of the receiver that an earlier pass left on the screen; needs screen_receiver.glsl, too.
+#ifdef HS_ON_SCREEN
+#define HS_PLANE hs_facetPlane
+bool hs_onReceiver = false;  // the object's own pixel
+#else
 #ifdef HS_FACET_NORMAL
 varying HS_HIGHP vec4 v_facetPlane;  // dot(v_facetPlane, v_map) = 0 on the facet
+#define HS_PLANE v_facetPlane
 #ifndef HS_NO_HIGHP
 #define HS_EXACT_PLACE
 uniform HS_HIGHP vec4 u_viewport;  // xy: 1 / size, zw: -origin / size
@@ -15,11 +21,12 @@ uniform HS_HIGHP vec4 u_rayOrigin;
 #endif
 uniform HS_HIGHP vec4 u_eyeLight;  // the eye, like v_map
 varying HS_HIGHP vec4 v_map;       // (t, i) = xyz / w, w: the height over the light
+#endif
 uniform HS_HIGHP sampler2D u_cellTiles;
 uniform HS_HIGHP vec2 u_tileSqueeze;    // of tangents, so that endless ones have a tile
 uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = squeezed tangent · xy + zw
 uniform HS_HIGHP vec4 u_tileAtlas;      // xy: columns and rows of the receiver's tiles, zw: first texel
-#if defined(HS_CASTING_RECEIVER) && (defined(HS_FACET_NORMAL) || defined(HS_DERIVATIVES))
+#if defined(HS_CASTING_RECEIVER) && (defined(HS_PLANE) || defined(HS_DERIVATIVES))
 #define HS_LIFTED
 #endif
 
@@ -36,7 +43,11 @@ bool hs_among = false;  // some vertices may lie beside or behind the receiver
 
 // Finds the fragment's tile, and where it stands.
 void hs_findList() {
+#ifdef HS_ON_SCREEN
+  HS_HIGHP vec4 position = hs_map;
+#else
   HS_HIGHP vec4 position = v_map;
+#endif
 #ifdef HS_EXACT_PLACE
   // Rasterisers snap vertices, some to a sixteenth of a pixel, and interpolate to match: a narrow penumbra shows
   // that. The pixel's own ray meets the facet's plane where it should.
@@ -59,6 +70,10 @@ void hs_findList() {
   HS_HIGHP vec2 tile = floor(squeezed * u_tileOfTangent.xy + u_tileOfTangent.zw);
   hs_outside = position.w < u_listPlace.x || min(tile.x, tile.y) < 0.0 || tile.x >= u_tileAtlas.x ||
                  tile.y >= u_tileAtlas.y;
+#ifdef HS_ON_SCREEN
+  // Loops end where nothing is listed; a discarded fragment may go on with those beside it.
+  hs_outside = hs_outside || !hs_onReceiver;
+#endif
   HS_COUNT(1);
   hs_head = floor(texture2D(u_cellTiles, (tile + u_tileAtlas.zw + 0.5) * u_cellTexel.xy) * 255.0 + 0.5);
   // Alpha: sub-lights that nothing covers, 16 where there is a list, 32 where its casters are apart, 64 where vertices
@@ -72,9 +87,9 @@ void hs_findList() {
   hs_lit = hs_outside ? HS_SUB_LIGHTS : mod(hs_head.a, 16.0);
 #ifdef HS_LIFTED
   // A surface must not be cut by the silhouettes of its own edges. Planes stay planes in (t, i).
-#ifdef HS_FACET_NORMAL
-  HS_HIGHP vec3 n = v_facetPlane.xyz;
-  hs_receiver -= n * ((dot(n, hs_receiver) + v_facetPlane.w) / max(dot(n, n), HS_SMALL));
+#ifdef HS_PLANE
+  HS_HIGHP vec3 n = HS_PLANE.xyz;
+  hs_receiver -= n * ((dot(n, hs_receiver) + HS_PLANE.w) / max(dot(n, n), HS_SMALL));
 #else
   HS_HIGHP vec3 n = cross(dFdx(hs_receiver), dFdy(hs_receiver));
 #endif
@@ -94,7 +109,11 @@ void hs_findList() {
 
 #ifdef HS_ONE_SIDED
 void hs_roundFacet() {
-  hs_facetRounding = dot(abs(hs_facet), 4.0 * hs_step + HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_receiver));
+  HS_HIGHP vec3 rounding = 4.0 * hs_step + HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_receiver);
+#ifdef HS_ON_SCREEN
+  rounding += hs_placeRounding;
+#endif
+  hs_facetRounding = dot(abs(hs_facet), rounding);
 }
 #endif
 

@@ -59,6 +59,10 @@ HS_HIGHP vec3 hs_beginList(inout HS_HIGHP vec2 at) {
   at = hs_recordAfter(at);
   return value * hs_wideStep;
 }
+#ifdef HS_ON_SCREEN
+// Of a receiver that was stored: how much the plane of its facet may turn over a unit of t and i.
+HS_HIGHP vec3 hs_planeTurn = vec3(0.0);
+#endif
 // What hs_nextVertex() adds to vertices, for a receiver in (t, i) that leaves its facet in the directions `away`, one for
 // each coordinate, and a list with that centre.
 HS_HIGHP vec3 hs_originFrom(HS_HIGHP vec3 center, HS_HIGHP vec3 receiver, HS_HIGHP vec3 away) {
@@ -96,7 +100,11 @@ HS_HIGHP float hs_facetRounding = 0.0;  // for vertices of one step: they are kn
 // How far a vertex, relative to the receiver, rises off that plane, less what the plane's own rounding makes of its distance:
 // it comes through a varying, and large facets reach far.
 HS_HIGHP float hs_offFacet(HS_HIGHP vec3 vertex) {
-  return abs(dot(hs_facet, vertex)) - HS_PLANE_ROUNDING * u_listPlace.w * dot(abs(hs_facet), abs(vertex));
+  HS_HIGHP vec3 rounding = HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_facet);
+#ifdef HS_ON_SCREEN
+  rounding += hs_planeTurn;
+#endif
+  return abs(dot(hs_facet, vertex)) - dot(rounding, abs(vertex));
 }
 #endif
 #ifdef HS_BEHIND_FACETS

@@ -63,6 +63,7 @@ struct LightScene {
   std::uint64_t contentKey = 0;  ///< of light and casters
   std::uint64_t sceneKey = 0;    ///< the same with the receivers
   Workers workers{};             ///< threads that the host lends
+  bool countsFetches = false;    ///< the frame asks for fetches of each pixel instead of visibility
 
   const planner::LightFit& fit() const { return center.fit; }
 };

@@ -51,6 +51,9 @@ struct ReceiverShading {
   bool usesFacetPlane = false;  ///< receiver-plane bias: by facet stream or by derivatives, per mesh
   /// Receivers compiled with HS_CASTING_RECEIVER: means over regions of the map would mislead them.
   enum class SelfReceivers { none, casting, all } selfReceivers = SelfReceivers::none;
+  /// With SelfReceivers::casting, what they are drawn by instead, with nothing defined; empty:
+  /// `fragmentFile`.
+  std::string castingFile;
   /// With SelfReceivers::casting, these objects too, though they cast nothing themselves.
   std::vector<std::uint64_t> alsoCasting;
   bool forward = true;  ///< may be evaluated inside a host's own fragment shader

@@ -106,6 +106,15 @@ std::vector<SettingInfo> commonSettings() {
        {},
        "triangles of casters that are not convex, in all, up to which wedges follow their outlines; where "
        "there are more pcss-mip takes the light, since a frame would take seconds"},
+      {"list_walk",
+       SettingType::choice,
+       "auto",
+       0,
+       0,
+       {"auto", "surfaces", "screen"},
+       "where casters that receive walk their lists: surfaces: as they are drawn; screen: in a pass of their "
+       "own over what is seen of them, for whose pixels it does not matter how small their triangles are; "
+       "auto: on the screen where they are dense, so that lists lead into trees of faces"},
       {"wedge_route",
        SettingType::choice,
        "gather",

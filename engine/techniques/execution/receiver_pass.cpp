@@ -66,12 +66,14 @@ ReceiverKind kindOf(const ReceiverShading& shading, const DrawItem& item,
   const bool shaded = !shadedBy.empty();
   const bool oneColor = item.baseColorTexture == nullptr && !item.vertexColors;
   const float brightest = std::max(std::max(item.baseColor.r, item.baseColor.g), item.baseColor.b);
-  return {.facets = shading.usesFacetPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
+  const bool casting =
+      shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
+      (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
+       (item.casts || std::ranges::find(shading.alsoCasting, item.object) != shading.alsoCasting.end()));
+  const bool needsPlane = shading.usesFacetPlane && !(casting && !shading.castingFile.empty());
+  return {.facets = needsPlane && item.mesh->hasFacetStream() && !(shaded && derivatives),
           .textured = shaded && item.baseColorTexture != nullptr,
-          .casting = shading.selfReceivers == ReceiverShading::SelfReceivers::all ||
-                     (shading.selfReceivers == ReceiverShading::SelfReceivers::casting &&
-                      (item.casts ||
-                       std::ranges::find(shading.alsoCasting, item.object) != shading.alsoCasting.end())),
+          .casting = casting,
           .cut = item.alphaMask != nullptr,
           .colored = item.vertexColors && (shaded || item.alphaMask != nullptr),
           .dark = shaded && oneColor && brightest < kDark,
@@ -216,20 +218,27 @@ bool inTwoDraws(const ReceiverShading& shading, const ReceiverRequest& request) 
 Result<ReceiverPrograms> linkPrograms(gl::ProgramCache& programs, const ReceiverShading& shading,
                                       const ReceiverRequest& request, const ReceiverKind& kind) {
   ReceiverPrograms result;
-  std::vector<std::string> defines = shading.defines;
+  const bool byAnother = kind.casting && !shading.castingFile.empty();
+  std::vector<std::string> defines = byAnother ? std::vector<std::string>() : shading.defines;
   if (kind.facets) defines.push_back("HS_FACET_NORMAL");
-  if (kind.casting) defines.push_back("HS_CASTING_RECEIVER");
+  if (kind.casting && !byAnother) defines.push_back("HS_CASTING_RECEIVER");
   if (kind.cut) defines.push_back("HS_ALPHA_MASK");
   if (kind.colored) defines.push_back("HS_VERTEX_COLORS");
   for (std::string& define : outputDefines(request, kind)) defines.push_back(std::move(define));
   const auto link = [&](std::initializer_list<const char*> extra, gl::Program*& program) -> Status {
     auto variant = defines;
     variant.insert(variant.end(), extra.begin(), extra.end());
-    auto linked = programs.get({"receiver/receiver.vert", shading.fragmentFile, variant});
+    auto linked = programs.get(
+        {"receiver/receiver.vert", byAnother ? shading.castingFile : shading.fragmentFile, variant});
     if (!linked) return linked.error();
     program = *linked;
     return {};
   };
+  // Casting receivers are not classified: see drawReceivers().
+  if (byAnother && inTwoDraws(shading, request)) {
+    if (Status s = link({}, result.filter); !s) return s.error();
+    return result;
+  }
   // Tap counts must be those of the two draws together, so the count variant evaluates them in one.
   if (inTwoDraws(shading, request)) {
     if (Status s = link({"HS_PHASE_CLASSIFY"}, result.classify); !s) return s.error();

@@ -76,7 +76,8 @@ class AdditivePlanner final : public LightPlanner {
   Status plan(const LightScene& scene, PassPlan& plan) override {
     const OwnSurfaces listed = listedSurfaces(routes_.volumes(scene));
     routes_.planSums(scene, plan, scene.settings.choice("wedges.route"), castingReceivers(scene, listed));
-    return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1}, listed);
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges.tiles", {&outlines::kWholeLight, 1}, listed,
+                           ownWalk(plan.shading));
   }
 
  private:
@@ -107,7 +108,7 @@ class ProbabilisticPlanner final : public LightPlanner {
     }
     plan.shading = screenShading(scene, visibility, 0.0f);
     return addOwnReceivers(scene, plan, loops_, lists_, "wedges-probabilistic.tiles",
-                           {&outlines::kWholeLight, 1}, listed);
+                           {&outlines::kWholeLight, 1}, listed, ownWalk(plan.shading));
   }
 
  private:

@@ -35,7 +35,7 @@ inline std::vector<ShaderFamily> vbufferShaders() {
                   fullscreen("list/vbuffer_add.frag")},
                  listReceiverFamilies("list/wedges_blended.frag", ListedIn::always,
                                       {flag("HS_CENTRES"), {{}, {{"HS_HALF 0"}}, {{"HS_HALF 1"}}}}),
-                 receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
+                 screenWalkFamilies("list/own_blended.frag", {flag("HS_CENTRES")})});
 }
 
 }  // namespace halfshadow::techniques

@@ -126,10 +126,8 @@ class BlendedPlanner final : public LightPlanner {
     // Without highp the lists' fixed-point vertices are the more exact way.
     if (!meet_ && scene.capabilities.has(device::Capability::highp)) return addUp(scene, plan);
     if (const auto merge = targetMerge(scene, plan)) {
-      const bool centres = scene.settings.choice("wedges-blended.cog") == "on";
-      if (Status s = planVbufferTargets(scene, plan, loops_, draws_, {.merge = *merge, .centres = centres});
-          !s)
-        return s;
+      const VbufferRequest request{.merge = *merge, .centres = hasCentres(scene)};
+      if (Status s = planVbufferTargets(scene, plan, loops_, draws_, request); !s) return s;
       return addOwn(scene, plan);
     }
     return gather(scene, plan);
@@ -144,9 +142,12 @@ class BlendedPlanner final : public LightPlanner {
     return addOwn(scene, plan);
   }
 
+  static bool hasCentres(const LightScene& scene) {
+    return scene.settings.choice("wedges-blended.cog") == "on";
+  }
   Status addOwn(const LightScene& scene, PassPlan& plan) {
     return addOwnReceivers(scene, plan, loops_, lists_, "wedges-blended.tiles", {&outlines::kWholeLight, 1},
-                           OwnSurfaces::all);
+                           OwnSurfaces::all, ownWalk(plan.shading));
   }
 
   /// One pass over the receivers; the vBuffers of a fragment are registers.
@@ -157,8 +158,10 @@ class BlendedPlanner final : public LightPlanner {
                               .tilesKey = "wedges-blended.tiles"};
     if (Status s = lists_.update(scene, plan, loops_, request); !s) return s;
     plan.shading.fragmentFile = "list/wedges_blended.frag";
-    if (scene.settings.choice("wedges-blended.cog") == "on") plan.shading.defines.push_back("HS_CENTRES");
-    lists_.provide(scene, plan);
+    if (hasCentres(scene)) plan.shading.defines.push_back("HS_CENTRES");
+    ScreenWalk walk{.fragmentFile = "list/own_blended.frag"};
+    if (hasCentres(scene)) walk.defines.push_back("HS_CENTRES");
+    lists_.provide(scene, plan, walk);
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
     if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
     if (hasProgramsInParts(scene)) planVisibilityParts(scene, plan, halvesOf(plan.shading));

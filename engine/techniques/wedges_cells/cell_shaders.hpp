@@ -21,7 +21,8 @@ inline std::vector<ShaderFamily> cellShaders() {
                                       {{{{"HS_CELL_TARGETS 1", "HS_CELLS 4"}},
                                         {{"HS_CELL_TARGETS 4", "HS_CELLS 16"}},
                                         {{"HS_CELL_TARGETS 1", "HS_CELLS 32"}}}}),
-                 listReceiverFamilies("list/wedges_cells.frag", ListedIn::always, {cells})});
+                 listReceiverFamilies("list/wedges_cells.frag", ListedIn::always, {cells}),
+                 screenWalkFamilies("list/own_cells.frag", {cells})});
 }
 
 }  // namespace halfshadow::techniques

@@ -101,10 +101,15 @@ class CellsPlanner final : public LightPlanner {
     const int cells = std::stoi(scene.settings.choice("wedges-cells.bytes"));
     const CellProduct product = route == Route::fetch ? CellProduct::fetched : CellProduct::blended;
     if (Status s = planCellTargets(scene, plan, loops_, draws_, cells, product); !s) return s;
-    return addOwnReceivers(scene, plan, loops_, lists_, "wedges-cells.tiles", kQuarters, OwnSurfaces::all);
+    return addOwnReceivers(scene, plan, loops_, lists_, "wedges-cells.tiles", kQuarters, OwnSurfaces::all,
+                           screenWalk(scene));
   }
 
  private:
+  static ScreenWalk screenWalk(const LightScene& scene) {
+    return {"list/own_cells.frag", {"HS_CELLS " + scene.settings.choice("wedges-cells.bytes")}};
+  }
+
   Status gather(const LightScene& scene, PassPlan& plan) {
     const ListRequest request{.subLights = kQuarters,
                               .edges = outlines::ListedEdges::covering,
@@ -113,7 +118,7 @@ class CellsPlanner final : public LightPlanner {
     if (Status s = lists_.update(scene, plan, loops_, request); !s) return s;
     plan.shading.fragmentFile = "list/wedges_cells.frag";
     plan.shading.defines = {"HS_CELLS " + scene.settings.choice("wedges-cells.bytes")};
-    lists_.provide(scene, plan);
+    lists_.provide(scene, plan, screenWalk(scene));
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
     if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
     return {};

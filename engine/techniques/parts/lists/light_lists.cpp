@@ -278,50 +278,32 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
   return tooManyVertices(request);
 }
 
-void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
-  ReceiverShading& shading = plan.shading;
-  shading.forward = false;
-  shading.usesFacetPlane = true;
-  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
-  const bool oneSided =
-      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.oneSided; });
-  const bool trees = std::ranges::any_of(
-      receivers_, [](const auto& receiver) { return !receiver.second.lists.trees.empty(); });
-  if (oneSided || trees) shading.defines.push_back("HS_ONE_SIDED");
-  shading.textures.push_back(
-      {.sampler = "u_cellTiles", .own = addList(plan, "list tiles", tiles_, imageKey_)});
-  shading.textures.push_back(
-      {.sampler = "u_cellLists", .own = addList(plan, "list records", records_, imageKey_)});
-  const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
-    return receiver.second.lists.amongReceivers && !receiver.second.casts;
-  });
-  const bool behind = std::ranges::any_of(
-      receivers_, [](const auto& receiver) { return receiver.second.lists.behindFacets; });
-  const bool sides =
-      std::ranges::any_of(receivers_, [](const auto& receiver) { return receiver.second.lists.sides; });
-  if (behind) shading.defines.push_back("HS_BEHIND_FACETS");
-  if (trees) shading.defines.push_back("HS_TREES");
-  if (sides) shading.defines.push_back("HS_SIDES");
-  if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
-  shading.defines.push_back("HS_LISTS");
-  shading.mapFromWorld = loops_->space().homogeneousFromWorld();
+bool LightLists::haveTrees() const {
+  return std::ranges::any_of(receivers_,
+                             [](const auto& receiver) { return !receiver.second.lists.trees.empty(); });
+}
+
+ListReads LightLists::reads(const LightScene& scene, PassPlan& plan) const {
+  ListReads reads;
+  const auto any = [this](auto holds) {
+    return std::ranges::any_of(receivers_, [&](const auto& receiver) { return holds(receiver.second); });
+  };
+  const bool trees = haveTrees();
+  if (trees || any([](const Receiver& receiver) { return receiver.lists.oneSided; }))
+    reads.defines.push_back("HS_ONE_SIDED");
+  if (any([](const Receiver& receiver) { return receiver.lists.behindFacets; }))
+    reads.defines.push_back("HS_BEHIND_FACETS");
+  if (trees) reads.defines.push_back("HS_TREES");
+  if (any([](const Receiver& receiver) { return receiver.lists.sides; })) reads.defines.push_back("HS_SIDES");
+  reads.textures = {{.sampler = "u_cellTiles", .own = addList(plan, "list tiles", tiles_, imageKey_)},
+                    {.sampler = "u_cellLists", .own = addList(plan, "list records", records_, imageKey_)}};
   const glm::vec2 tileTexel = 1.0f / glm::vec2(tiles_.width, tiles_.height);
   const glm::vec2 recordTexel = 1.0f / glm::vec2(records_.width, records_.height);
-  const std::array<glm::vec4, 3> rays = pixelRays(scene.screen, shading.mapFromWorld);
-  const glm::vec4 eye(shading.mapFromWorld * glm::dvec4(scene.screen.eyeWorld, 1.0));
-  const glm::vec4 place = listPlace(scene, loops_->minHeight());
-  shading.uniforms.set("u_cellTexel", glm::vec4(tileTexel, recordTexel));
-  shading.uniforms.set("u_listPlace", place);
-  shading.uniforms.set("u_rayX", rays[0]);
-  shading.uniforms.set("u_rayY", rays[1]);
-  shading.uniforms.set("u_rayOrigin", rays[2]);
-  shading.uniforms.set("u_eyeLight", eye);
-  shading.itemUniforms = [this](const DrawItem& item, device::UniformList& uniforms) {
-    const FacetPlanes planes = facetPlanes(loops_->space(), item.worldFromObject);
-    uniforms.set("u_facetT0", planes.t[0]);
-    uniforms.set("u_facetT1", planes.t[1]);
-    uniforms.set("u_facetI", planes.i);
-    uniforms.set("u_facetOne", planes.one);
+  reads.mapFromWorld = loops_->space().homogeneousFromWorld();
+  reads.uniforms.set("u_cellTexel", glm::vec4(tileTexel, recordTexel));
+  reads.uniforms.set("u_listPlace", listPlace(scene, loops_->minHeight()));
+  reads.uniforms.set("u_eyeLight", glm::vec4(reads.mapFromWorld * glm::dvec4(scene.screen.eyeWorld, 1.0)));
+  reads.tilesOf = [this](const DrawItem& item, device::UniformList& uniforms) {
     const auto found = receivers_.find(item.object);
     if (found == receivers_.end() || found->second.tiles.empty()) {
       uniforms.set("u_tileAtlas", glm::vec4(0.0f));
@@ -335,6 +317,39 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan) const {
     uniforms.set("u_tileAtlas", glm::vec4(tiles.columns, tiles.rows, found->second.firstTexel.x,
                                           found->second.firstTexel.y));
   };
+  return reads;
+}
+
+void LightLists::provide(const LightScene& scene, PassPlan& plan, const ScreenWalk& own) const {
+  const ListReads reads = this->reads(scene, plan);
+  ReceiverShading& shading = plan.shading;
+  shading.forward = false;
+  shading.usesFacetPlane = true;
+  shading.selfReceivers = ReceiverShading::SelfReceivers::casting;
+  shading.defines.insert(shading.defines.end(), reads.defines.begin(), reads.defines.end());
+  const bool among = std::ranges::any_of(receivers_, [](const auto& receiver) {
+    return receiver.second.lists.amongReceivers && !receiver.second.casts;
+  });
+  if (among) shading.defines.push_back("HS_AMONG_RECEIVERS");
+  shading.defines.push_back("HS_LISTS");
+  shading.textures.insert(shading.textures.end(), reads.textures.begin(), reads.textures.end());
+  shading.mapFromWorld = reads.mapFromWorld;
+  for (const device::UniformList::Entry& entry : reads.uniforms.entries())
+    shading.uniforms.set(entry.key, entry.value);
+  const std::array<glm::vec4, 3> rays = pixelRays(scene.screen, shading.mapFromWorld);
+  shading.uniforms.set("u_rayX", rays[0]);
+  shading.uniforms.set("u_rayY", rays[1]);
+  shading.uniforms.set("u_rayOrigin", rays[2]);
+  shading.itemUniforms = [this, tilesOf = reads.tilesOf](const DrawItem& item,
+                                                         device::UniformList& uniforms) {
+    const FacetPlanes planes = facetPlanes(loops_->space(), item.worldFromObject);
+    uniforms.set("u_facetT0", planes.t[0]);
+    uniforms.set("u_facetT1", planes.t[1]);
+    uniforms.set("u_facetI", planes.i);
+    uniforms.set("u_facetOne", planes.one);
+    tilesOf(item, uniforms);
+  };
+  if (walksOnScreen(scene, haveTrees())) planScreenWalk(scene, plan, reads, own);
 }
 
 }  // namespace halfshadow::techniques

@@ -10,6 +10,7 @@
 #include "techniques/core/pass_plan.hpp"
 #include "techniques/parts/lists/light_loops.hpp"
 #include "techniques/parts/lists/list_textures.hpp"
+#include "techniques/parts/lists/screen_walk.hpp"
 
 namespace halfshadow::techniques {
 
@@ -44,8 +45,8 @@ class LightLists {
   Status update(const LightScene& scene, PassPlan& plan, LightLoops& loops, const ListRequest& request);
 
   /// Adds textures and uniforms to the plan's shading, for a fragment shader with caster_lists.glsl. It
-  /// refers to this object.
-  void provide(const LightScene& scene, PassPlan& plan) const;
+  /// refers to this object. `own`: how casting receivers walk them where they do that on the screen.
+  void provide(const LightScene& scene, PassPlan& plan, const ScreenWalk& own) const;
 
  private:
   struct Receiver {
@@ -57,6 +58,9 @@ class LightLists {
     glm::ivec2 firstTexel{0};
   };
 
+  bool haveTrees() const;
+  /// What a fragment shader with caster_lists.glsl reads.
+  ListReads reads(const LightScene& scene, PassPlan& plan) const;
   /// False when what bounds the tiles changed.
   bool boundShadows(const LightScene& scene);
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "techniques/core/shader_families.hpp"
+#include "techniques/parts/screen/screen_shaders.hpp"
 
 namespace halfshadow::techniques {
 
@@ -22,6 +23,19 @@ inline std::vector<ShaderFamily> listReceiverFamilies(const std::string& fragmen
     axes.push_back(flag(macro, {"HS_LISTS"}));
   axes.push_back(flag("HS_TREES", {"HS_LISTS", "HS_ONE_SIDED", "HS_BEHIND_FACETS"}));
   return receiverFamilies(fragmentFile, {.twoDraws = always, .forward = false}, std::move(axes));
+}
+
+/// What casting receivers are drawn with where they walk their lists on the screen. `axes`: of the walk's
+/// fragment file.
+inline std::vector<ShaderFamily> screenWalkFamilies(const std::string& fragmentFile,
+                                                    std::vector<ShaderAxis> axes) {
+  // Nothing of it is drawn without highp.
+  axes.push_back({{.needs = {"!HS_NO_HIGHP"}}});
+  for (const char* macro : {"HS_ONE_SIDED", "HS_BEHIND_FACETS", "HS_SIDES"}) axes.push_back(flag(macro));
+  axes.push_back(flag("HS_TREES", {"HS_ONE_SIDED", "HS_BEHIND_FACETS"}));
+  axes.push_back(flag("HS_COUNT_TAPS"));
+  return joined({{receiverDepthShader(), receiverFacetShader(), fullscreen(fragmentFile, std::move(axes))},
+                 receiverFamilies("screen/screen_visibility.frag", {.forward = false})});
 }
 
 }  // namespace halfshadow::techniques

@@ -18,14 +18,14 @@ bool needsOwnReceivers(const LightScene& scene, OwnSurfaces which) {
 
 Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
                        std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
-                       OwnSurfaces which) {
+                       OwnSurfaces which, const ScreenWalk& walk) {
   if (!needsOwnReceivers(scene, which)) return {};
   const ListRequest request{.subLights = subLights,
                             .receivers = ListedReceivers::casting,
                             .tiles = scene.settings.integer(tilesKey),
                             .tilesKey = tilesKey};
   if (Status s = lists.update(scene, plan, loops, request); !s) return s;
-  lists.provide(scene, plan);
+  lists.provide(scene, plan, walk);
   return {};
 }
 

@@ -22,10 +22,10 @@ bool needsOwnReceivers(const LightScene& scene, OwnSurfaces which);
 
 /// Makes casting receivers of the plan's shading walk lists, for a fragment file that does so with
 /// HS_CASTING_RECEIVER. Nothing happens where no casting receiver needs them. `tilesKey`: the setting that
-/// holds the number of tiles. `subLights`: those of the fragment file. Errors: outOfMemory (lists exceed the
-/// largest texture).
+/// holds the number of tiles. `subLights`: those of the fragment file. `walk`: how they do so on the screen.
+/// Errors: outOfMemory (lists exceed the largest texture).
 Status addOwnReceivers(const LightScene& scene, PassPlan& plan, LightLoops& loops, LightLists& lists,
                        std::string_view tilesKey, std::span<const outlines::SubLight> subLights,
-                       OwnSurfaces which);
+                       OwnSurfaces which, const ScreenWalk& walk);
 
 }  // namespace halfshadow::techniques

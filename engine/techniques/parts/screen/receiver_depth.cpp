@@ -86,53 +86,79 @@ class DepthPrograms {
   std::optional<std::uint32_t> programs_[2][2];
 };
 
-/// Plane and facet code of each item as `alpha` wants them.
+/// Places relative to the eye, and planes of facets where the item has them.
+void setFacetUniforms(PlannedDraw& draw, const View& view, const ReceiverDepth& depth, const DrawItem& item,
+                      bool planes) {
+  // Unit scale keeps single precision in range for tiny and huge worlds.
+  const double scale = 1.0 / depth.farthest;
+  glm::dmat4 relative = item.worldFromObject;
+  relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
+  for (int column = 0; column < 4; ++column) {
+    relative[column] = glm::dvec4(scale * glm::dvec3(relative[column]), relative[column].w);
+  }
+  draw.uniforms.set("u_relativeFromObject", glm::mat4(relative));
+  if (!planes) return;
+  glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(item.worldFromObject));
+  normals /= std::max(glm::length(normals[0]) + glm::length(normals[1]) + glm::length(normals[2]), 1e-300);
+  draw.uniforms.set("u_worldNormalFromObject", glm::mat3(normals));
+}
+
+MeshDraw meshDraw(const View& view, const ReceiverDepth& depth, std::span<const DrawItem> item, bool planes) {
+  return {.items = item,
+          .clipFromWorld = depth.clipFromWorld,
+          .streams = planes ? MeshStreams::facet : MeshStreams::positions,
+          .faces = MeshDraw::Faces::facing,
+          .eyeWorld = view.eyeWorld,
+          .nearReach = view.nearReach};
+}
+
+/// Plane and facet code of each item as `alpha` wants them. `number`: of ReceiverAlpha::numbers, 0 where it
+/// casts nothing.
 PlannedDraw depthDraw(const LightScene& scene, DepthPrograms& programs, const ReceiverDepth& depth,
-                      ReceiverAlpha alpha, std::span<const DrawItem> item) {
+                      ReceiverAlpha alpha, std::span<const DrawItem> item, std::size_t number) {
   const DrawItem& drawn = item.front();
   const View& view = scene.screen;
   const bool facets = alpha == ReceiverAlpha::facets;
-  const bool planes = facets && drawn.facetStream, codes = facets && drawn.casts;
+  const bool planes = alpha != ReceiverAlpha::one && drawn.facetStream, codes = facets && drawn.casts;
   PlannedDraw draw{.program = programs.of(codes, planes)};
 
-  // Unit scale keeps single precision in range for tiny and huge worlds.
   const double scale = 1.0 / depth.farthest;
   draw.uniforms.set("u_inverseFarthest", static_cast<float>(scale));
   draw.uniforms.set("u_nearestReceiver", static_cast<float>(scale * depth.nearest));
-  draw.uniforms.set("u_receiverMark", !facets && hasFewTriangles(drawn) ? 128.0f : 254.75f);
-  if (planes || codes) {
-    glm::dmat4 relative = drawn.worldFromObject;
-    relative[3] -= glm::dvec4(view.eyeWorld, 0.0);
-    for (int column = 0; column < 4; ++column) {
-      relative[column] = glm::dvec4(scale * glm::dvec3(relative[column]), relative[column].w);
-    }
-    draw.uniforms.set("u_relativeFromObject", glm::mat4(relative));
-  }
+  float mark = !facets && hasFewTriangles(drawn) ? 128.0f : 254.75f;
+  if (alpha == ReceiverAlpha::numbers) mark = static_cast<float>(number);
+  draw.uniforms.set("u_receiverMark", mark);
+  if (planes || codes) setFacetUniforms(draw, view, depth, drawn, planes);
   if (planes) {
-    glm::dmat3 normals = glm::inverseTranspose(glm::dmat3(drawn.worldFromObject));
-    normals /= std::max(glm::length(normals[0]) + glm::length(normals[1]) + glm::length(normals[2]), 1e-300);
-    draw.uniforms.set("u_worldNormalFromObject", glm::mat3(normals));
     const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(scale), view.eyeWorld);
     draw.uniforms.set("u_pixelRay", glm::mat3(glm::dmat3(rays.rayX, rays.rayY, rays.rayOrigin)));
   }
   draw.state.depth = {.test = device::Compare::less, .write = true};
-  draw.what = MeshDraw{.items = item,
-                       .clipFromWorld = depth.clipFromWorld,
-                       .streams = planes ? MeshStreams::facet : MeshStreams::positions,
-                       .faces = MeshDraw::Faces::facing,
-                       .eyeWorld = view.eyeWorld,
-                       .nearReach = view.nearReach};
+  draw.what = meshDraw(view, depth, item, planes);
   return draw;
+}
+
+const char* nameOf(ReceiverAlpha alpha) {
+  switch (alpha) {
+    case ReceiverAlpha::facets:
+      return "receiver depth and facets";
+    case ReceiverAlpha::numbers:
+      return "receiver depth and numbers";
+    case ReceiverAlpha::one:
+      break;
+  }
+  return "receiver depth";
 }
 }  // namespace
 
 ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, ReceiverAlpha alpha) {
-  const std::string name = alpha == ReceiverAlpha::facets ? "receiver depth and facets" : "receiver depth";
+  const std::string name = nameOf(alpha);
   ReceiverDepth depth;
   depth.clipFromWorld = withoutFarPlane(scene.screen.clipFromWorld);
   const glm::dvec4 w = row(scene.screen.clipFromWorld, 3);
   double low = std::numeric_limits<double>::infinity(), high = 0.0;
   for (const DrawItem& item : scene.receivers) {
+    if (alpha == ReceiverAlpha::numbers && !item.casts) continue;  // they hide others, no more
     low = std::min(low, nearestInView(item.boundsWorld, scene.screen));
     for (const glm::dvec3& corner : item.boundsWorld.corners())
       high = std::max(high, glm::dot(w, glm::dvec4(corner, 1.0)));
@@ -150,11 +176,49 @@ ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, Receive
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
   DepthPrograms programs(plan);
-  for (std::size_t i = 0; i < scene.receivers.size(); ++i)
-    pass.draws.push_back(depthDraw(scene, programs, depth, alpha, scene.receivers.subspan(i, 1)));
+  std::size_t numbered = 0;
+  for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
+    const std::size_t number = scene.receivers[i].casts ? ++numbered : 0;
+    pass.draws.push_back(depthDraw(scene, programs, depth, alpha, scene.receivers.subspan(i, 1), number));
+  }
   pass.drawsForAllLights = pass.draws.size();
   plan.passes.push_back(std::move(pass));
   return depth;
+}
+
+std::vector<const DrawItem*> numberedReceivers(const LightScene& scene) {
+  std::vector<const DrawItem*> casting;
+  for (const DrawItem& item : scene.receivers) {
+    if (item.casts) casting.push_back(&item);
+  }
+  return casting;
+}
+
+framegraph::ResourceId planReceiverFacets(const LightScene& scene, PassPlan& plan,
+                                          const ReceiverDepth& depth) {
+  const std::string name = "facets of receivers";
+  const framegraph::ResourceId image =
+      plan.addSharedImage({.name = name, .width = scene.screen.width, .height = scene.screen.height});
+  PlannedPass pass{.name = name, .stage = framegraph::PassStage::receiverPrepass};
+  pass.writes = {{.resource = image, .point = framegraph::AttachmentPoint::color},
+                 {.resource = depth.depthTest,
+                  .point = framegraph::AttachmentPoint::depth,
+                  .initial = framegraph::InitialContent::keep}};
+  for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
+    const DrawItem& item = scene.receivers[i];
+    if (!item.casts) continue;
+    PlannedDraw draw{.program = plan.addProgram({"screen/receiver_depth.vert",
+                                                 "screen/receiver_facets.frag",
+                                                 {item.facetStream ? "HS_FACET_NORMAL" : "HS_FACETS"}})};
+    draw.uniforms.set("u_inverseFarthest", static_cast<float>(1.0 / depth.farthest));
+    setFacetUniforms(draw, scene.screen, depth, item, item.facetStream);
+    draw.state.depth = {.test = device::Compare::equal, .write = false};
+    draw.what = meshDraw(scene.screen, depth, scene.receivers.subspan(i, 1), item.facetStream);
+    pass.draws.push_back(std::move(draw));
+  }
+  pass.drawsForAllLights = pass.draws.size();
+  plan.passes.push_back(std::move(pass));
+  return image;
 }
 
 ReceiverRays receiverRays(const View& view, const ReceiverDepth& depth, const glm::dmat3& lightFromWorld,

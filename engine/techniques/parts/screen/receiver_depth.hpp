@@ -5,6 +5,8 @@
 /// that works on the screen.
 #pragma once
 
+#include <vector>
+
 #include "techniques/core/pass_plan.hpp"
 
 namespace halfshadow::techniques {
@@ -25,14 +27,25 @@ struct ReceiverDepth {
 
 /// What alpha holds.
 enum class ReceiverAlpha {
-  one,    ///< 1, or 1/2 where the receiver has few triangles
-  facets  ///< of receivers that cast, where their facets face: hs_facetOf(). Places are those of facets'
-          ///< planes
+  one,     ///< 1, or 1/2 where the receiver has few triangles
+  facets,  ///< of receivers that cast, where their facets face: hs_facetOf(). Places are those of facets'
+           ///< planes
+  numbers  ///< of receivers that cast, their numbers: see numberedReceivers(). Places as above, of them alone
 };
+
+/// In the order of their numbers, which begin at 1.
+std::vector<const DrawItem*> numberedReceivers(const LightScene& scene);
+/// That many have numbers.
+inline constexpr std::size_t kMostNumberedReceivers = 254;
 
 /// Adds the pass, which all lights of a frame share.
 ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan,
                                 ReceiverAlpha alpha = ReceiverAlpha::one);
+
+/// Of receivers that cast, where their facets face, as exactly as 2 x 16 bits tell: receiver_facets.frag.
+/// Adds the pass, which all lights of a frame share. `depth`: of the same frame.
+framegraph::ResourceId planReceiverFacets(const LightScene& scene, PassPlan& plan,
+                                          const ReceiverDepth& depth);
 
 /// A pixel's place in the coordinates (a, b, h) of a light is
 /// eye + distance · (rayOrigin + x · rayX + y · rayY), x and y its window coordinates, distance what is

@@ -18,4 +18,10 @@ inline ShaderFamily receiverDepthShader() {
            alphaAxis()}};
 }
 
+inline ShaderFamily receiverFacetShader() {
+  return {"screen/receiver_depth.vert",
+          "screen/receiver_facets.frag",
+          {{{{"HS_FACET_NORMAL"}}, {{"HS_FACETS"}, {"HS_DERIVATIVES", "!HS_NO_HIGHP"}}}, alphaAxis()}};
+}
+
 }  // namespace halfshadow::techniques

@@ -2,6 +2,8 @@
 // Copyright (c) 2026 The Halfshadow authors
 #include "techniques/parts/wedges/wedge_passes.hpp"
 
+#include <algorithm>
+
 namespace halfshadow::techniques {
 using framegraph::Attachment;
 using framegraph::AttachmentPoint;
@@ -23,6 +25,13 @@ ReceiverShading shareShading(const LightScene& scene, ResourceId image) {
   ReceiverShading shading = screenShading(scene, image, 0.0f);
   shading.defines = {"HS_WEDGE_SHARES"};
   return shading;
+}
+
+ScreenWalk ownWalk(const ReceiverShading& shading) {
+  ScreenWalk walk{.fragmentFile = "list/own_cells.frag", .defines = {"HS_CELLS 16", "HS_WHOLE_LIGHT"}};
+  if (std::ranges::find(shading.defines, "HS_WEDGE_SUMS") != shading.defines.end())
+    walk.defines.push_back("HS_SUM_CASTERS");
+  return walk;
 }
 
 ResourceId screenImage(const LightScene& scene, PassPlan& plan, const std::string& name) {

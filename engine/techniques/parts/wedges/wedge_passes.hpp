@@ -4,6 +4,7 @@
 /// Passes over penumbra wedges on the screen, as several techniques need them.
 #pragma once
 
+#include "techniques/parts/lists/screen_walk.hpp"
 #include "techniques/parts/wedges/wedge_volumes.hpp"
 
 namespace halfshadow::techniques {
@@ -38,5 +39,7 @@ std::vector<framegraph::Attachment> wedgeTargets(framegraph::ResourceId color, c
 ReceiverShading screenShading(const LightScene& scene, framegraph::ResourceId image, float steps);
 /// Visibility from the covered shares of the light's four quadrants.
 ReceiverShading shareShading(const LightScene& scene, framegraph::ResourceId image);
+/// How casting receivers of such a shading walk lists on the screen: as its own file does on surfaces.
+ScreenWalk ownWalk(const ReceiverShading& shading);
 
 }  // namespace halfshadow::techniques

@@ -19,7 +19,9 @@ inline std::vector<ShaderFamily> wedgeShaders() {
                   {"wedge/wedge_receiver.vert", "wedge/wedge_receiver.frag", {footprint, piece[0], piece[1]}},
                   fullscreen("wedge/wedge_merge.frag")},
                  listReceiverFamilies("wedge/screen_wedges.frag", ListedIn::castingReceivers,
-                                      {{{}, {{"HS_WEDGE_SUMS"}}, {{"HS_WEDGE_SHARES"}}}})});
+                                      {{{}, {{"HS_WEDGE_SUMS"}}, {{"HS_WEDGE_SHARES"}}}}),
+                 screenWalkFamilies("list/own_cells.frag",
+                                    {{{{"HS_CELLS 16"}}}, {{{"HS_WHOLE_LIGHT"}}}, flag("HS_SUM_CASTERS")})});
 }
 
 }  // namespace halfshadow::techniques

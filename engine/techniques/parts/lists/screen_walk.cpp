@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: MIT
+// Copyright (c) 2026 The Halfshadow authors
+#include "techniques/parts/lists/screen_walk.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "outlines/wedge_bounds.hpp"
+#include "techniques/parts/screen/receiver_depth.hpp"
+
+namespace halfshadow::techniques {
+namespace {
+/// World to the map and to planes of facets, relative to the eye and in units of the farthest receiver.
+struct RelativeMap {
+  glm::mat4 map, plane;
+};
+RelativeMap relativeMap(const View& view, const ReceiverDepth& depth, const glm::dmat4& mapFromWorld) {
+  glm::dmat4 worldFromRelative(depth.farthest);
+  worldFromRelative[3] = glm::dvec4(view.eyeWorld, 1.0);
+  const glm::dmat4 map = mapFromWorld * worldFromRelative;
+  glm::dmat4 plane = glm::transpose(glm::inverse(map));
+  double largest = 0.0;
+  for (int column = 0; column < 4; ++column) {
+    for (int row = 0; row < 4; ++row) largest = std::max(largest, std::abs(plane[column][row]));
+  }
+  plane /= std::max(largest, 1e-300);
+  return {glm::mat4(map), glm::mat4(plane)};
+}
+}  // namespace
+
+bool walksOnScreen(const LightScene& scene, bool intoTrees) {
+  const std::string& asked = scene.settings.choice("list_walk");
+  // Places and planes are stored in more bits than mediump has; halves of programs are drawn on surfaces.
+  if (asked == "surfaces" || !scene.capabilities.has(device::Capability::highp) || hasProgramsInParts(scene))
+    return false;
+  const std::vector<const DrawItem*> casting = numberedReceivers(scene);
+  if (casting.empty() || casting.size() > kMostNumberedReceivers) return false;
+  const auto hasPlanes = [&](const DrawItem* item) {
+    return item->facetStream || scene.capabilities.has(device::Capability::derivatives);
+  };
+  if (!std::ranges::all_of(casting, hasPlanes)) return false;
+  return asked == "screen" || intoTrees;
+}
+
+void planScreenWalk(const LightScene& scene, PassPlan& plan, const ListReads& reads, const ScreenWalk& walk) {
+  const View& view = scene.screen;
+  const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::numbers);
+  const framegraph::ResourceId facets = planReceiverFacets(scene, plan, depth);
+  const framegraph::ResourceId image =
+      plan.addImage({.name = scene.name + " own lists", .width = view.width, .height = view.height});
+
+  std::vector<std::string> defines = walk.defines;
+  defines.insert(defines.end(), reads.defines.begin(), reads.defines.end());
+  if (scene.countsFetches) defines.push_back("HS_COUNT_TAPS");
+  const std::uint32_t program = plan.addProgram({"screen/fullscreen.vert", walk.fragmentFile, defines});
+  const ReceiverRays rays = receiverRays(view, depth, glm::dmat3(1.0 / depth.farthest), view.eyeWorld);
+  const RelativeMap relative = relativeMap(view, depth, reads.mapFromWorld);
+
+  PlannedPass pass{.name = scene.name + " own lists", .stage = framegraph::PassStage::receiverPrepass};
+  // Read only where it was drawn.
+  pass.writes = {{.resource = image,
+                  .point = framegraph::AttachmentPoint::color,
+                  .initial = framegraph::InitialContent::clear}};
+  const std::vector<const DrawItem*> casting = numberedReceivers(scene);
+  for (std::size_t i = 0; i < casting.size(); ++i) {
+    const auto rect = outlines::screenBounds(casting[i]->boundsWorld.corners(), view.clipFromWorld,
+                                             view.width, view.height);
+    if (!rect) continue;
+    PlannedDraw draw{.program = program, .textures = reads.textures, .uniforms = reads.uniforms};
+    draw.viewport = *rect;
+    addReceiverPosition(draw, view, depth, rays);
+    draw.textures.push_back({.sampler = "u_receiverFacets", .resource = facets});
+    draw.uniforms.set("u_mapFromRelative", relative.map);
+    draw.uniforms.set("u_planeFromFacet", relative.plane);
+    draw.uniforms.set("u_receiverNumber", static_cast<float>(i + 1));
+    reads.tilesOf(*casting[i], draw.uniforms);
+    pass.draws.push_back(std::move(draw));
+  }
+  plan.passes.push_back(std::move(pass));
+
+  ReceiverShading& shading = plan.shading;
+  shading.castingFile = "screen/screen_visibility.frag";
+  shading.textures.push_back({.sampler = "u_screen", .resource = image});
+  // High and low byte of 65280ths.
+  shading.uniforms.set("u_channel", glm::vec4(1.0f, 1.0f / 256.0f, 0.0f, 0.0f));
+  shading.uniforms.set("u_offset", 0.0f);
+  shading.uniforms.set("u_earlierTaps", glm::vec4(255.0f, 255.0f * 256.0f, 0.0f, 0.0f));
+}
+
+}  // namespace halfshadow::techniques
