@@ -94,7 +94,8 @@ void CoveredLevels::makeStrands() {
   }
 }
 
-/// All pairs of strands whose projections cross, by sweeping over x.
+/// All pairs of strands whose projections cross, by sweeping over x in each row; a pair that shares several
+/// rows is tried in the first.
 void CoveredLevels::findCrossings() {
   crossings_.clear();
   nodes_ = static_cast<std::uint32_t>(vertices_.size());
@@ -104,12 +105,18 @@ void CoveredLevels::findCrossings() {
   order_.resize(strands_.size());
   for (std::uint32_t s = 0; s < order_.size(); ++s) order_[s] = s;
   std::ranges::sort(order_, {}, low);
-  active_.clear();
-  for (const std::uint32_t s : order_) {
-    const double begins = low(s);
-    std::erase_if(active_, [&](std::uint32_t other) { return high(other) < begins; });
-    for (const std::uint32_t other : active_) cross(s, other);
-    active_.push_back(s);
+  sortIntoRows();
+  for (std::size_t row = 0; row < rows_; ++row) {
+    active_.clear();
+    for (std::uint32_t k = firstInRow_[row]; k < firstInRow_[row + 1]; ++k) {
+      const std::uint32_t s = strandsInRow_[k];
+      const double begins = low(s);
+      std::erase_if(active_, [&](std::uint32_t other) { return high(other) < begins; });
+      for (const std::uint32_t other : active_) {
+        if (std::max(rowsOf(strands_[s]).first, rowsOf(strands_[other]).first) == row) cross(s, other);
+      }
+      active_.push_back(s);
+    }
   }
   std::ranges::sort(crossings_, [](const Crossing& a, const Crossing& b) {
     return a.on != b.on ? a.on < b.on : a.t < b.t;
@@ -152,24 +159,59 @@ glm::dvec2 CoveredLevels::flatAt(const Strand& strand, double t) const {
 
 void CoveredLevels::addJumps(const Strand& strand, int times) {
   for (std::uint32_t k = strand.firstJump; k < strand.firstJump + strand.jumpCount; ++k) {
-    for (std::size_t side = 0; side < 2; ++side)
-      counts_[jumps_[k].surface][side] += times * jumps_[k].sides[side];
+    auto& [towards, away] = counts_[jumps_[k].surface];
+    level_ -= std::max({0, towards, away});
+    towards += times * jumps_[k].sides[0];
+    away += times * jumps_[k].sides[1];
+    level_ += std::max({0, towards, away});
   }
 }
 
-int CoveredLevels::level() const {
-  int level = 0;
-  for (const auto& [towards, away] : counts_) level += std::max({0, towards, away});
-  return level;
+std::size_t CoveredLevels::rowOf(double y) const {
+  const double row = (y - lowestRow_) * rowsPerUnit_;
+  return row > 0.0 ? std::min(static_cast<std::size_t>(row), rows_ - 1) : 0;
+}
+
+std::pair<std::size_t, std::size_t> CoveredLevels::rowsOf(const Strand& strand) const {
+  const double from = vertices_[strand.from].flat.y, to = vertices_[strand.to].flat.y;
+  return {rowOf(std::min(from, to)), rowOf(std::max(from, to))};
+}
+
+void CoveredLevels::sortIntoRows() {
+  // Many strands are short: a row holds few more than cross it.
+  constexpr std::size_t kStrandsPerRow = 4, kMostRows = 4096;
+  double low = 1e300, high = -1e300;
+  for (const Vertex& vertex : vertices_) {
+    low = std::min(low, vertex.flat.y);
+    high = std::max(high, vertex.flat.y);
+  }
+  rows_ = std::clamp<std::size_t>(strands_.size() / kStrandsPerRow, 1, kMostRows);
+  lowestRow_ = low;
+  rowsPerUnit_ = high > low ? static_cast<double>(rows_) / (high - low) : 0.0;
+  firstInRow_.assign(rows_ + 1, 0);
+  for (const Strand& strand : strands_) {
+    const auto [first, last] = rowsOf(strand);
+    for (std::size_t row = first; row <= last; ++row) ++firstInRow_[row + 1];
+  }
+  for (std::size_t row = 0; row < rows_; ++row) firstInRow_[row + 1] += firstInRow_[row];
+  strandsInRow_.resize(firstInRow_.back());
+  std::vector<std::uint32_t> filled(firstInRow_.begin(), firstInRow_.end() - 1);
+  for (const std::uint32_t s : order_) {
+    const auto [first, last] = rowsOf(strands_[s]);
+    for (std::size_t row = first; row <= last; ++row) strandsInRow_[filled[row]++] = s;
+  }
 }
 
 void CoveredLevels::countFrom(std::uint32_t s) {
   counts_.assign(surfaces_, {});
+  level_ = 0;
   const Strand& own = strands_[s];
   const double t = own.crossingCount > 0 ? 0.5 * crossings_[own.firstCrossing].t : 0.5;
   const glm::dvec2 at = flatAt(own, t);
   // Along a ray to the right: what rises has its left on this side of it.
-  for (const Strand& strand : strands_) {
+  const std::size_t row = rowOf(at.y);
+  for (std::uint32_t k = firstInRow_[row]; k < firstInRow_[row + 1]; ++k) {
+    const Strand& strand = strands_[strandsInRow_[k]];
     const glm::dvec2 p = vertices_[strand.from].flat - at, q = vertices_[strand.to].flat - at;
     if ((p.y > 0) == (q.y > 0) || &strand == &own) continue;
     const double side = cross2(p, q);
@@ -195,9 +237,9 @@ void CoveredLevels::walk(std::uint32_t s) {
           last ? nullptr : &crossings_[strand.firstCrossing + (forward ? k : strand.crossingCount - 1 - k)];
       const double next = last ? (forward ? 1.0 : 0.0) : crossing->t;
       const std::uint32_t nextNode = last ? (forward ? strand.to : strand.from) : crossing->node;
-      const int right = level();
+      const int right = level_;
       addJumps(strand, 1);
-      const int left = level();
+      const int left = level_;
       addJumps(strand, -1);
       if (left != right) {
         Piece piece{.strand = s, .left = left, .right = right};

@@ -9,6 +9,7 @@
 #include <glm/glm.hpp>
 #include <span>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace halfshadow::scene {
@@ -79,7 +80,9 @@ class CoveredLevels {
   /// The sides' counts just right of the strand's start.
   void countFrom(std::uint32_t strand);
   void addJumps(const Strand& strand, int times);
-  int level() const;
+  void sortIntoRows();  ///< in the order of order_
+  std::size_t rowOf(double y) const;
+  std::pair<std::size_t, std::size_t> rowsOf(const Strand& strand) const;  ///< first and last
   bool traceLevel(int level, Level& result);
   glm::dvec3 pointAt(const Strand& strand, double t) const;
   glm::dvec2 flatAt(const Strand& strand, double t) const;
@@ -99,6 +102,11 @@ class CoveredLevels {
   std::vector<Piece> pieces_;
   std::vector<bool> walked_;
   std::vector<std::array<int, 2>> counts_;  ///< by surface, where the walk is
+  int level_ = 0;                           ///< there
+  /// Strands by rows of the projection that they reach into, in a row from left to right.
+  double lowestRow_ = 0.0, rowsPerUnit_ = 0.0;
+  std::size_t rows_ = 1;
+  std::vector<std::uint32_t> firstInRow_, strandsInRow_;
   std::vector<std::uint32_t> firstOut_, nextOut_, chosen_;
   std::uint32_t nodes_ = 0;
 };

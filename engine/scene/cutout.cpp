@@ -9,6 +9,7 @@ namespace halfshadow::scene {
 namespace {
 /// Texel of a row or column that stands at a place which may lie beyond the border.
 int wrapped(long long texel, int size, ImageWrap wrap) {
+  if (texel >= 0 && texel < size) return static_cast<int>(texel);
   if (wrap == ImageWrap::clampToEdge) return static_cast<int>(std::clamp<long long>(texel, 0, size - 1));
   const long long period = wrap == ImageWrap::repeat ? size : 2LL * size;
   const long long inside = (texel % period + period) % period;

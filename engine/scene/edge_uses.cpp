@@ -8,10 +8,8 @@
 namespace halfshadow::scene {
 
 std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> faces) {
-  // Counted by the lesser end first: what is left to sort are the few edges of one vertex.
   std::uint32_t last = 0;
   for (const glm::uvec3& face : faces) last = std::max({last, face.x, face.y, face.z});
-  std::vector<std::size_t> begins(faces.empty() ? 1 : std::size_t{last} + 2, 0);
   const auto forEachUse = [&](const auto& visit) {
     for (std::uint32_t f = 0; f < faces.size(); ++f) {
       for (int k = 0; k < 3; ++k) {
@@ -20,6 +18,20 @@ std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> faces) {
       }
     }
   };
+  const auto inOrder = [](const EdgeUse& a, const EdgeUse& b) {
+    return a.key != b.key ? a.key < b.key : a.face < b.face;
+  };
+  // A small part of a mesh must not cost what all its vertices do.
+  constexpr std::size_t kVerticesPerFace = 4;
+  if (last > kVerticesPerFace * faces.size()) {
+    std::vector<EdgeUse> uses;
+    uses.reserve(faces.size() * 3);
+    forEachUse([&](const EdgeUse& use) { uses.push_back(use); });
+    std::sort(uses.begin(), uses.end(), inOrder);
+    return uses;
+  }
+  // Counted by the lesser end first: what is left to sort are the few edges of one vertex.
+  std::vector<std::size_t> begins(faces.empty() ? 1 : std::size_t{last} + 2, 0);
   const auto lesserEnd = [](const EdgeUse& use) { return static_cast<std::size_t>(use.key >> 32); };
   forEachUse([&](const EdgeUse& use) { ++begins[lesserEnd(use) + 1]; });
   std::partial_sum(begins.begin(), begins.end(), begins.begin());
@@ -27,10 +39,8 @@ std::vector<EdgeUse> edgeUses(std::span<const glm::uvec3> faces) {
   std::vector<std::size_t> next = begins;
   forEachUse([&](const EdgeUse& use) { uses[next[lesserEnd(use)]++] = use; });
   for (std::size_t vertex = 0; vertex + 1 < begins.size(); ++vertex) {
-    std::sort(
-        uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex]),
-        uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex + 1]),
-        [](const EdgeUse& a, const EdgeUse& b) { return a.key != b.key ? a.key < b.key : a.face < b.face; });
+    std::sort(uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex]),
+              uses.begin() + static_cast<std::ptrdiff_t>(begins[vertex + 1]), inOrder);
   }
   return uses;
 }
