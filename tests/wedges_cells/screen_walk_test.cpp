@@ -4,6 +4,7 @@
 // that pays.
 #include <algorithm>
 #include <cmath>
+#include <glm/gtc/matrix_transform.hpp>
 #include <numeric>
 
 #include "reference/reference.hpp"
@@ -137,9 +138,31 @@ TEST_F(ScreenWalks, AreChosenForDenseCasters) {
   EXPECT_FALSE(hasPass("own lists"));
 }
 
-TEST_F(ScreenWalks, AreNotForMoreReceiversThanHaveNumbers) {
-  // Alpha tells 254 of them.
-  renderer().load(builtinScene("spheres-cube"));
+TEST_F(ScreenWalks, OfMoreReceiversThanHaveNumbers) {
+  // Alpha tells 254 of them; those that are apart on the screen share one.
+  for (const int side : {20, 34}) {
+    scene::SceneDescription scene = builtinScene("box@light=1");
+    const scene::SceneObject box = scene.objects.front();
+    ASSERT_TRUE(box.casts);
+    scene.objects.erase(scene.objects.begin());
+    for (int i = 0; i < side * side; ++i) {
+      scene::SceneObject& copy = scene.objects.emplace_back(box);
+      const glm::dvec3 at(0.2 * (i % side - 0.5 * side), 0.0, 0.2 * (i / side - 0.5 * side));
+      copy.worldFromObject = glm::translate(glm::dmat4(1.0), at) *
+                             glm::scale(glm::dmat4(1.0), glm::dvec3(0.08)) * box.worldFromObject;
+    }
+    renderer().load(scene);
+    expectSamePicture({"wedges-cells"}, std::to_string(side * side) + " boxes");
+    EXPECT_TRUE(hasPass("own lists"));
+  }
+}
+
+TEST_F(ScreenWalks, AreNotWhereNumbersDoNotSuffice) {
+  // All in one place.
+  scene::SceneDescription scene = builtinScene("box@light=1");
+  const scene::SceneObject box = scene.objects.front();
+  for (int i = 0; i < 254; ++i) scene.objects.push_back(box);
+  renderer().load(scene);
   renderer().render(walked({"wedges-cells"}, "screen"));
   EXPECT_FALSE(hasPass("own lists"));
 }

@@ -349,7 +349,8 @@ void LightLists::provide(const LightScene& scene, PassPlan& plan, const ScreenWa
     uniforms.set("u_facetOne", planes.one);
     tilesOf(item, uniforms);
   };
-  if (walksOnScreen(scene, haveTrees())) planScreenWalk(scene, plan, reads, own);
+  if (const auto walkers = screenWalkers(scene, haveTrees()))
+    planScreenWalk(scene, plan, *walkers, reads, own);
 }
 
 }  // namespace halfshadow::techniques

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "outlines/wedge_bounds.hpp"
-#include "techniques/parts/screen/receiver_depth.hpp"
-
 namespace halfshadow::techniques {
 namespace {
 /// World to the map and to planes of facets, relative to the eye and in units of the farthest receiver.
@@ -28,23 +25,24 @@ RelativeMap relativeMap(const View& view, const ReceiverDepth& depth, const glm:
 }
 }  // namespace
 
-bool walksOnScreen(const LightScene& scene, bool intoTrees) {
+std::optional<std::vector<NumberedReceiver>> screenWalkers(const LightScene& scene, bool intoTrees) {
   const std::string& asked = scene.settings.choice("list_walk");
+  if (asked == "surfaces" || (asked == "auto" && !intoTrees)) return std::nullopt;
   // Places and planes are stored in more bits than mediump has; halves of programs are drawn on surfaces.
-  if (asked == "surfaces" || !scene.capabilities.has(device::Capability::highp) || hasProgramsInParts(scene))
-    return false;
-  const std::vector<const DrawItem*> casting = numberedReceivers(scene);
-  if (casting.empty() || casting.size() > kMostNumberedReceivers) return false;
-  const auto hasPlanes = [&](const DrawItem* item) {
-    return item->facetStream || scene.capabilities.has(device::Capability::derivatives);
+  if (!scene.capabilities.has(device::Capability::highp) || hasProgramsInParts(scene)) return std::nullopt;
+  const auto hasPlane = [&](const DrawItem& item) {
+    return !item.casts || item.facetStream || scene.capabilities.has(device::Capability::derivatives);
   };
-  if (!std::ranges::all_of(casting, hasPlanes)) return false;
-  return asked == "screen" || intoTrees;
+  if (!std::ranges::any_of(scene.receivers, &DrawItem::casts) ||
+      !std::ranges::all_of(scene.receivers, hasPlane))
+    return std::nullopt;
+  return numberReceivers(scene);
 }
 
-void planScreenWalk(const LightScene& scene, PassPlan& plan, const ListReads& reads, const ScreenWalk& walk) {
+void planScreenWalk(const LightScene& scene, PassPlan& plan, std::span<const NumberedReceiver> walkers,
+                    const ListReads& reads, const ScreenWalk& walk) {
   const View& view = scene.screen;
-  const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::numbers);
+  const ReceiverDepth depth = planReceiverDepth(scene, plan, ReceiverAlpha::numbers, walkers);
   const framegraph::ResourceId facets = planReceiverFacets(scene, plan, depth);
   const framegraph::ResourceId image =
       plan.addImage({.name = scene.name + " own lists", .width = view.width, .height = view.height});
@@ -61,19 +59,16 @@ void planScreenWalk(const LightScene& scene, PassPlan& plan, const ListReads& re
   pass.writes = {{.resource = image,
                   .point = framegraph::AttachmentPoint::color,
                   .initial = framegraph::InitialContent::clear}};
-  const std::vector<const DrawItem*> casting = numberedReceivers(scene);
-  for (std::size_t i = 0; i < casting.size(); ++i) {
-    const auto rect = outlines::screenBounds(casting[i]->boundsWorld.corners(), view.clipFromWorld,
-                                             view.width, view.height);
-    if (!rect) continue;
+  for (const NumberedReceiver& walker : walkers) {
+    if (!walker.rect) continue;
     PlannedDraw draw{.program = program, .textures = reads.textures, .uniforms = reads.uniforms};
-    draw.viewport = *rect;
+    draw.viewport = walker.rect;
     addReceiverPosition(draw, view, depth, rays);
     draw.textures.push_back({.sampler = "u_receiverFacets", .resource = facets});
     draw.uniforms.set("u_mapFromRelative", relative.map);
     draw.uniforms.set("u_planeFromFacet", relative.plane);
-    draw.uniforms.set("u_receiverNumber", static_cast<float>(i + 1));
-    reads.tilesOf(*casting[i], draw.uniforms);
+    draw.uniforms.set("u_receiverNumber", static_cast<float>(walker.number));
+    reads.tilesOf(*walker.item, draw.uniforms);
     pass.draws.push_back(std::move(draw));
   }
   plan.passes.push_back(std::move(pass));

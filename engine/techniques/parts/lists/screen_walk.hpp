@@ -6,8 +6,11 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <vector>
 
 #include "techniques/core/pass_plan.hpp"
+#include "techniques/parts/screen/receiver_depth.hpp"
 
 namespace halfshadow::techniques {
 
@@ -27,14 +30,15 @@ struct ScreenWalk {
   std::vector<std::string> defines{};
 };
 
-/// Setting list_walk, and whether this device and the scene have what that takes. `intoTrees`: lists lead
-/// into trees of facets, whose walks are long: measured on llvmpipe, 2 to 3.6 times less time for frames of
-/// dense casters (facets of 4 to 200 pixels), where the passes of their own cost frames without trees up to
-/// two thirds more.
-bool walksOnScreen(const LightScene& scene, bool intoTrees);
+/// The receivers that walk theirs there; nothing where they do so on surfaces: setting list_walk, or what
+/// this device or the scene lack. `intoTrees`: lists lead into trees of facets, whose walks are long:
+/// measured on llvmpipe, 2 to 3.6 times less time for frames of dense casters (facets of 4 to 200 pixels),
+/// where the passes of their own cost frames without trees up to two thirds more.
+std::optional<std::vector<NumberedReceiver>> screenWalkers(const LightScene& scene, bool intoTrees);
 
 /// Adds passes that find the visibility of casting receivers on the screen, and makes the plan's shading read
 /// it for them.
-void planScreenWalk(const LightScene& scene, PassPlan& plan, const ListReads& reads, const ScreenWalk& walk);
+void planScreenWalk(const LightScene& scene, PassPlan& plan, std::span<const NumberedReceiver> walkers,
+                    const ListReads& reads, const ScreenWalk& walk);
 
 }  // namespace halfshadow::techniques

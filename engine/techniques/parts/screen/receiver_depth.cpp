@@ -3,11 +3,14 @@
 #include "techniques/parts/screen/receiver_depth.hpp"
 
 #include <algorithm>
+#include <bitset>
 #include <cmath>
 #include <glm/gtc/matrix_inverse.hpp>
 #include <limits>
 #include <optional>
 #include <vector>
+
+#include "outlines/wedge_bounds.hpp"
 
 namespace halfshadow::techniques {
 namespace {
@@ -115,7 +118,7 @@ MeshDraw meshDraw(const View& view, const ReceiverDepth& depth, std::span<const 
 /// Plane and facet code of each item as `alpha` wants them. `number`: of ReceiverAlpha::numbers, 0 where it
 /// casts nothing.
 PlannedDraw depthDraw(const LightScene& scene, DepthPrograms& programs, const ReceiverDepth& depth,
-                      ReceiverAlpha alpha, std::span<const DrawItem> item, std::size_t number) {
+                      ReceiverAlpha alpha, std::span<const DrawItem> item, int number) {
   const DrawItem& drawn = item.front();
   const View& view = scene.screen;
   const bool facets = alpha == ReceiverAlpha::facets;
@@ -151,7 +154,8 @@ const char* nameOf(ReceiverAlpha alpha) {
 }
 }  // namespace
 
-ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, ReceiverAlpha alpha) {
+ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, ReceiverAlpha alpha,
+                                std::span<const NumberedReceiver> numbered) {
   const std::string name = nameOf(alpha);
   ReceiverDepth depth;
   depth.clipFromWorld = withoutFarPlane(scene.screen.clipFromWorld);
@@ -176,9 +180,10 @@ ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, Receive
   pass.writes = {{.resource = depth.packed, .point = framegraph::AttachmentPoint::color},
                  {.resource = depth.depthTest, .point = framegraph::AttachmentPoint::depth}};
   DepthPrograms programs(plan);
-  std::size_t numbered = 0;
+  auto next = numbered.begin();
   for (std::size_t i = 0; i < scene.receivers.size(); ++i) {
-    const std::size_t number = scene.receivers[i].casts ? ++numbered : 0;
+    const bool isNumbered = next != numbered.end() && next->item == &scene.receivers[i];
+    const int number = isNumbered ? next++->number : 0;
     pass.draws.push_back(depthDraw(scene, programs, depth, alpha, scene.receivers.subspan(i, 1), number));
   }
   pass.drawsForAllLights = pass.draws.size();
@@ -186,12 +191,30 @@ ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan, Receive
   return depth;
 }
 
-std::vector<const DrawItem*> numberedReceivers(const LightScene& scene) {
-  std::vector<const DrawItem*> casting;
+std::optional<std::vector<NumberedReceiver>> numberReceivers(const LightScene& scene) {
+  // Each is compared with all before it.
+  constexpr std::size_t kMostNumber = 254, kMostReceivers = 4096;
+  std::vector<NumberedReceiver> receivers;
   for (const DrawItem& item : scene.receivers) {
-    if (item.casts) casting.push_back(&item);
+    if (!item.casts) continue;
+    if (receivers.size() == kMostReceivers) return std::nullopt;
+    NumberedReceiver receiver{
+        .item = &item,
+        .rect = outlines::screenBounds(item.boundsWorld.corners(), scene.screen.clipFromWorld,
+                                       scene.screen.width, scene.screen.height)};
+    if (receiver.rect) {
+      std::bitset<kMostNumber + 1> taken;
+      taken.set(0);
+      for (const NumberedReceiver& other : receivers) {
+        if (other.rect && outlines::commonRect(*receiver.rect, *other.rect))
+          taken.set(static_cast<std::size_t>(other.number));
+      }
+      if (taken.all()) return std::nullopt;
+      while (taken.test(static_cast<std::size_t>(receiver.number))) ++receiver.number;
+    }
+    receivers.push_back(receiver);
   }
-  return casting;
+  return receivers;
 }
 
 framegraph::ResourceId planReceiverFacets(const LightScene& scene, PassPlan& plan,

@@ -5,6 +5,8 @@
 /// that works on the screen.
 #pragma once
 
+#include <optional>
+#include <span>
 #include <vector>
 
 #include "techniques/core/pass_plan.hpp"
@@ -30,17 +32,22 @@ enum class ReceiverAlpha {
   one,     ///< 1, or 1/2 where the receiver has few triangles
   facets,  ///< of receivers that cast, where their facets face: hs_facetOf(). Places are those of facets'
            ///< planes
-  numbers  ///< of receivers that cast, their numbers: see numberedReceivers(). Places as above, of them alone
+  numbers  ///< of receivers that cast, their numbers. Places as above, of them alone
 };
 
-/// In the order of their numbers, which begin at 1.
-std::vector<const DrawItem*> numberedReceivers(const LightScene& scene);
-/// That many have numbers.
-inline constexpr std::size_t kMostNumberedReceivers = 254;
+/// A receiver that casts, and what is seen of it at most.
+struct NumberedReceiver {
+  const DrawItem* item = nullptr;
+  std::optional<Rect> rect;  ///< pixels; nothing where it is out of view
+  int number = 0;            ///< of no other whose rectangle overlaps; 0 where it is out of view
+};
+/// All of the frame that cast, in its order. Nothing where numbers do not suffice: alpha tells 254 of them.
+std::optional<std::vector<NumberedReceiver>> numberReceivers(const LightScene& scene);
 
-/// Adds the pass, which all lights of a frame share.
+/// Adds the pass, which all lights of a frame share. `numbered`: with ReceiverAlpha::numbers.
 ReceiverDepth planReceiverDepth(const LightScene& scene, PassPlan& plan,
-                                ReceiverAlpha alpha = ReceiverAlpha::one);
+                                ReceiverAlpha alpha = ReceiverAlpha::one,
+                                std::span<const NumberedReceiver> numbered = {});
 
 /// Of receivers that cast, where their facets face, as exactly as 2 x 16 bits tell: receiver_facets.frag.
 /// Adds the pass, which all lights of a frame share. `depth`: of the same frame.
