@@ -225,6 +225,8 @@ def path_of(label):
         return "lit or umbra"
     if "PHASE_FILTER" in label:
         return "penumbra, after it"
+    if label.startswith("list/own_"):
+        return "on the screen"
     return "every pixel" if re.match(r"(map/(hard|pcf|pcss|vsm)|list/|occlusion/occlusion_textures|width/shadow|screen/s)",
                                      label) else None
 
@@ -238,7 +240,7 @@ def table(gpus):
             path = path_of(label)
             if path is None or identifier in gpu.dropped or "SHADED" in label:
                 continue
-            casting = "casting" if "CASTING_RECEIVER" in label else ""
+            casting = "casting" if "CASTING_RECEIVER" in label or path == "on the screen" else ""
             size = (gpu.results[identifier]["fs"]["i"], gpu.cell(identifier))
             for technique in line[4].split(","):
                 cells = rows.setdefault((technique, path, casting), {})
