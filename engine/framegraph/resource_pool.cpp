@@ -72,6 +72,9 @@ void ResourcePool::repeatRun() {
   };
   for (const auto& [name, image] : persistent_) repeat(*image);
   for (const auto& image : transient_) repeat(*image);
+  for (auto& [key, attached] : framebuffers_) {
+    if (attached.lastRun == run_) ++attached.lastRun;
+  }
   ++run_;
 }
 
@@ -170,7 +173,10 @@ Result<Image*> ResourcePool::takeTransient(const ResourceDesc& desc) {
 Result<const gl::Framebuffer*> ResourcePool::framebuffer(const AttachedImages& images) {
   const auto serialOf = [](const Image* image) { return image ? image->serial : 0; };
   const FramebufferKey key{serialOf(images.color), serialOf(images.depth), serialOf(images.stencil)};
-  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) return &found->second;
+  if (const auto found = framebuffers_.find(key); found != framebuffers_.end()) {
+    found->second.lastRun = run_;
+    return &found->second.framebuffer;
+  }
   gl::FramebufferAttachments attachments;
   if (images.color) attachments.color = &images.color->texture;
   if (images.depth && images.depth->texture) attachments.depthTexture = &images.depth->texture;
@@ -178,7 +184,14 @@ Result<const gl::Framebuffer*> ResourcePool::framebuffer(const AttachedImages& i
   if (images.stencil) attachments.stencil = &images.stencil->renderbuffer;
   Result<gl::Framebuffer> created = gl::Framebuffer::create(context_, attachments);
   if (!created) return created.error();
-  return &(framebuffers_[key] = std::move(*created));
+  const auto isTransient = [](const Image* image) {
+    return image != nullptr && image->desc.lifetime != Lifetime::persistent;
+  };
+  const bool transient =
+      isTransient(images.color) || isTransient(images.depth) || isTransient(images.stencil);
+  AttachedFramebuffer& made = framebuffers_[key];
+  made = {.framebuffer = std::move(*created), .lastRun = run_, .transient = transient};
+  return &made.framebuffer;
 }
 
 std::uint64_t ResourcePool::memoryBytes() const {
@@ -192,8 +205,12 @@ std::uint64_t ResourcePool::memoryBytes() const {
   return bytes;
 }
 
+bool ResourcePool::isOld(std::uint64_t lastRun, int runs) const {
+  return lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+}
+
 bool ResourcePool::isStale(const Image& image, int runs) const {
-  return image.lastRun + static_cast<std::uint64_t>(std::max(runs, 0)) <= run_;
+  return isOld(image.lastRun, runs);
 }
 
 void ResourcePool::trim(int runs) {
@@ -204,6 +221,9 @@ void ResourcePool::trim(int runs) {
   };
   std::erase_if(persistent_, [&](const auto& entry) { return stale(*entry.second); });
   std::erase_if(transient_, [&](const auto& image) { return stale(*image); });
+  std::erase_if(framebuffers_, [&](const auto& entry) {
+    return entry.second.transient && isOld(entry.second.lastRun, runs);
+  });
 }
 
 void ResourcePool::forgetContent() {

@@ -58,7 +58,8 @@ class ResourcePool {
   std::uint64_t memoryBytes() const;
   /// Not used by the last `runs` runs; with 0 every image is.
   bool isStale(const Image& image, int runs) const;
-  void trim(int runs);   ///< frees stale images
+  /// Frees stale images, and framebuffers over transient ones that no such run had together.
+  void trim(int runs);
   void forgetContent();  ///< all content keys become 0
 
  private:
@@ -67,11 +68,17 @@ class ResourcePool {
   /// (packed depth-stencil), and those of the GL objects.
   Result<std::unique_ptr<Image>> createImage(const ResourceDesc& desc);
   void forgetFramebuffersOf(const Image& image);
+  bool isOld(std::uint64_t lastRun, int runs) const;
 
   gl::Context& context_;
   std::map<std::string, std::unique_ptr<Image>> persistent_;
   std::vector<std::unique_ptr<Image>> transient_;
-  std::map<FramebufferKey, gl::Framebuffer> framebuffers_;
+  struct AttachedFramebuffer {
+    gl::Framebuffer framebuffer;
+    std::uint64_t lastRun = 0;
+    bool transient = false;  ///< some image of it is: another frame may put others beside it
+  };
+  std::map<FramebufferKey, AttachedFramebuffer> framebuffers_;
   std::uint64_t nextSerial_ = 1;
   std::uint64_t run_ = 0;
 };

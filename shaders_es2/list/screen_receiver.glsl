@@ -5,6 +5,7 @@
 // relative to the eye.
 uniform HS_HIGHP sampler2D u_receiverFacets;
 uniform HS_HIGHP float u_receiverNumber;  // of the object whose lists these are
+uniform HS_HIGHP float u_facetRounding;   // of components of its facets' normals, where they come from derivatives
 uniform HS_HIGHP mat4 u_mapFromRelative;
 uniform HS_HIGHP mat4 u_planeFromFacet;   // columns: of the facet's normal, and of its plane's distance to the eye
 uniform HS_HIGHP vec4 u_eyeLight;         // the eye, like hs_map
@@ -44,6 +45,6 @@ bool hs_readReceiver() {
   HS_HIGHP vec3 x = u_planeFromFacet[0].xyz - u_planeFromFacet[3].xyz * relative.x;
   HS_HIGHP vec3 y = u_planeFromFacet[1].xyz - u_planeFromFacet[3].xyz * relative.y;
   HS_HIGHP vec3 z = u_planeFromFacet[2].xyz - u_planeFromFacet[3].xyz * relative.z;
-  hs_planeTurn = HS_SIDE_ROUNDING * (abs(x) + abs(y) + 2.0 * abs(z));
+  hs_planeTurn = (HS_SIDE_ROUNDING + u_facetRounding) * (abs(x) + abs(y) + 2.0 * abs(z));
   return abs(floor(stored.a * 255.0 + 0.5) - u_receiverNumber) < 0.5;
 }

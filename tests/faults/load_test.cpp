@@ -88,6 +88,13 @@ class Host {
   RenderDesc desc_;
 };
 
+std::string kindsOf(const Engine& engine) {
+  const MemoryRecord memory = engine.memory();
+  return std::to_string(memory.textures) + " textures, " + std::to_string(memory.renderbuffers) +
+         " renderbuffers, " + std::to_string(memory.framebuffers) + " framebuffers, " +
+         std::to_string(memory.buffers) + " buffers, " + std::to_string(memory.programs) + " programs";
+}
+
 /// Draws as an engine that has seen no other frame, and holds no more than that one.
 void expectFresh(Host& host, const HostScene& scene, std::unique_ptr<Engine> engine) {
   Host fresh(std::move(engine));
@@ -99,7 +106,8 @@ void expectFresh(Host& host, const HostScene& scene, std::unique_ptr<Engine> eng
   EXPECT_TRUE(fresh.engine().trim(Trim::unused).ok());
   // A last frame that moved little needed fewer images than a first one.
   EXPECT_LE(host.engine().memory().bytes, fresh.engine().memory().bytes);
-  EXPECT_LE(host.engine().liveObjectCount(), fresh.engine().liveObjectCount());
+  EXPECT_LE(host.engine().liveObjectCount(), fresh.engine().liveObjectCount())
+      << kindsOf(host.engine()) << " of " << scene.technique << "; fresh: " << kindsOf(fresh.engine());
 }
 
 HostScene startScene() {

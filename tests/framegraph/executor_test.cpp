@@ -354,6 +354,34 @@ TEST_F(ExecutorTest, TrimFreesWhatRecentRunsDidNotUse) {
   EXPECT_EQ(executor->memoryBytes(), 0u);
 }
 
+TEST_F(ExecutorTest, TrimFreesFramebuffersThatRecentRunsDidNotUse) {
+  // Two colours and a depth, of which now the first, now the second has the depth beside it.
+  const auto frame = [&](bool depthFirst) {
+    Graph graph;
+    const ResourceId a = colorTexture(graph, "a"), b = colorTexture(graph, "b");
+    const ResourceId depth = depthBuffer(graph, "depth");
+    const auto writes = [&](ResourceId color, bool withDepth) {
+      std::vector<Attachment> attachments{colorOf(color)};
+      if (withDepth) attachments.push_back(depthOf(depth));
+      return attachments;
+    };
+    addDrawingPass(graph, "a", PassStage::light, {}, writes(a, depthFirst), filling(kRed));
+    addDrawingPass(graph, "b", PassStage::light, {a}, writes(b, !depthFirst), swapping(a));
+    graph.markOutput(b);
+    EXPECT_EQ(runs(graph).size(), 2u);
+    EXPECT_EQ(pixelOf(graph, b), kBlueBytes);
+  };
+  const auto framebuffers = [&] { return context().liveObjects().framebuffers; };
+  frame(false);
+  const int ofOne = framebuffers();
+  frame(true);
+  EXPECT_GT(framebuffers(), ofOne);
+  frame(false);
+  executor->trim(1);
+  EXPECT_EQ(framebuffers(), ofOne);
+  frame(true);  // made again
+}
+
 TEST_F(ExecutorTest, MissingCapabilitiesAreNamed) {
   close();
   Result<std::unique_ptr<gl::Context>> bare =

@@ -7,6 +7,14 @@
 
 namespace halfshadow::techniques {
 namespace {
+/// Of a normal from derivatives: places relative to the eye are interpolated in single precision, which shows
+/// in their differences between pixels, four times its half step in each of them. Measured: a table of 168 x
+/// 168 seen from 290 away under 11 degrees hid itself without (WideFacetsHideNothingOfThemselves).
+double derivativeRounding(const ReceiverRays& rays) {
+  constexpr double kOfPlaces = 4.0 / (1 << 24);
+  return kOfPlaces / std::max(std::min(glm::length(rays.rayX), glm::length(rays.rayY)), 1e-30);
+}
+
 /// World to the map and to planes of facets, relative to the eye and in units of the farthest receiver.
 struct RelativeMap {
   glm::mat4 map, plane;
@@ -67,6 +75,8 @@ void planScreenWalk(const LightScene& scene, PassPlan& plan, std::span<const Num
     draw.textures.push_back({.sampler = "u_receiverFacets", .resource = facets});
     draw.uniforms.set("u_mapFromRelative", relative.map);
     draw.uniforms.set("u_planeFromFacet", relative.plane);
+    draw.uniforms.set("u_facetRounding",
+                      walker.item->facetStream ? 0.0f : static_cast<float>(derivativeRounding(rays)));
     draw.uniforms.set("u_receiverNumber", static_cast<float>(walker.number));
     reads.tilesOf(*walker.item, draw.uniforms);
     pass.draws.push_back(std::move(draw));
