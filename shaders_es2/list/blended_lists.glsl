@@ -3,6 +3,19 @@
 // Walks the list of the fragment's tile, and merges into what the casters before hide what each one hides. Needs
 // caster_lists.glsl, vbuffer_walk.glsl and facet_tree.glsl.
 // Based on: Forest, Barthe, Paulin 2006, section 3.
+#ifdef HS_SIDES
+// What a sheet hides is that side of it which hides more: `firstSide` keeps the one that ends first.
+void hs_mergeSide(inout HS_Occlusion hidden, inout HS_Occlusion firstSide, HS_Occlusion side, HS_HIGHP float isFirst) {
+  HS_Occlusion both = hs_largerOf(firstSide, side);
+  firstSide = hs_nothing();
+  if (isFirst > 0.5) {
+    firstSide = both;
+  } else {
+    hidden = hs_merge(hidden, both);
+  }
+}
+#endif
+
 #ifndef HS_CASTING_RECEIVER
 // Nothing to blend where no casters overlap: their shares of the whole light.
 HS_HIGHP float hs_sumOfShares(HS_HIGHP vec2 at, HS_HIGHP vec3 origin) {
@@ -45,13 +58,7 @@ HS_Occlusion hs_blended(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed) {
       if (ends > 0.5) break;
     }
 #ifdef HS_SIDES
-    HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
-    firstSide = hs_nothing();
-    if (sideEnds > 0.5) {
-      firstSide = both;
-    } else {
-      all = hs_merge(all, both);
-    }
+    hs_mergeSide(all, firstSide, hs_occlusion(sums), sideEnds);
 #else
     all = hs_merge(all, hs_occlusion(sums));
 #endif
@@ -79,13 +86,7 @@ void hs_hideByTrees(inout HS_HIGHP vec2 at, HS_HIGHP vec3 origin, inout bool lis
     hs_walkTree(address, hidden, sums);
     if (tags.ends > 0.5) {
 #ifdef HS_SIDES
-      HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
-      firstSide = hs_nothing();
-      if (tags.firstSide > 0.5) {
-        firstSide = both;
-      } else {
-        hidden = hs_merge(hidden, both);
-      }
+      hs_mergeSide(hidden, firstSide, hs_occlusion(sums), tags.firstSide);
 #else
       hidden = hs_merge(hidden, hs_occlusion(sums));
 #endif
@@ -130,13 +131,7 @@ HS_Occlusion hs_blendedAmong(HS_HIGHP vec2 at, HS_HIGHP vec3 origin, bool listed
       if (ends > 0.5) break;
     }
 #ifdef HS_SIDES
-    HS_Occlusion both = hs_largerOf(firstSide, hs_occlusion(sums));
-    firstSide = hs_nothing();
-    if (sideEnds > 0.5) {
-      firstSide = both;
-    } else {
-      hidden = hs_merge(hidden, both);
-    }
+    hs_mergeSide(hidden, firstSide, hs_occlusion(sums), sideEnds);
 #else
     hidden = hs_merge(hidden, hs_occlusion(sums));
 #endif

@@ -159,9 +159,7 @@ class BlendedPlanner final : public LightPlanner {
     if (Status s = lists_.update(scene, plan, loops_, request); !s) return s;
     plan.shading.fragmentFile = "list/wedges_blended.frag";
     if (hasCentres(scene)) plan.shading.defines.push_back("HS_CENTRES");
-    ScreenWalk walk{.fragmentFile = "list/own_blended.frag"};
-    if (hasCentres(scene)) walk.defines.push_back("HS_CENTRES");
-    lists_.provide(scene, plan, walk);
+    lists_.provide(scene, plan, {"list/own_blended.frag", plan.shading.defines});
     // Most fragments have no list; a loop that ends at once still costs a round on some devices.
     if (preferredSkip(scene) == FilterSkip::stencil) plan.shading.skip = FilterSkip::stencil;
     if (hasProgramsInParts(scene)) planVisibilityParts(scene, plan, halvesOf(plan.shading));

@@ -67,6 +67,7 @@ void planScreenWalk(const LightScene& scene, PassPlan& plan, std::span<const Num
   pass.writes = {{.resource = image,
                   .point = framegraph::AttachmentPoint::color,
                   .initial = framegraph::InitialContent::clear}};
+  const auto byDerivatives = static_cast<float>(derivativeRounding(rays));
   for (const NumberedReceiver& walker : walkers) {
     if (!walker.rect) continue;
     PlannedDraw draw{.program = program, .textures = reads.textures, .uniforms = reads.uniforms};
@@ -75,8 +76,7 @@ void planScreenWalk(const LightScene& scene, PassPlan& plan, std::span<const Num
     draw.textures.push_back({.sampler = "u_receiverFacets", .resource = facets});
     draw.uniforms.set("u_mapFromRelative", relative.map);
     draw.uniforms.set("u_planeFromFacet", relative.plane);
-    draw.uniforms.set("u_facetRounding",
-                      walker.item->facetStream ? 0.0f : static_cast<float>(derivativeRounding(rays)));
+    draw.uniforms.set("u_facetRounding", walker.item->facetStream ? 0.0f : byDerivatives);
     draw.uniforms.set("u_receiverNumber", static_cast<float>(walker.number));
     reads.tilesOf(*walker.item, draw.uniforms);
     pass.draws.push_back(std::move(draw));
