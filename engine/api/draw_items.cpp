@@ -38,16 +38,21 @@ techniques::DrawItem drawItem(const EngineObject& object) {
           .geometry = &object.geometry()};
 }
 
+techniques::ItemHistory::Key keyOf(const SceneLists& scene, std::uint32_t index) {
+  const planner::ObjectKey& key = scene.keys()[index];
+  return {key.id, key.revision};
+}
+
 void updateItems(ItemList& list, const SceneLists& scene, std::span<const std::uint32_t> objects,
                  ItemRole role) {
-  list.resize(objects.size());
-  for (std::size_t place = 0; place < objects.size(); ++place) {
-    const planner::ObjectKey& key = scene.keys()[objects[place]];
-    if (list.holds(place, key.id, key.revision)) continue;
-    techniques::DrawItem item = drawItem(scene.object(objects[place]));
+  const auto make = [&](std::uint32_t index) -> Result<techniques::DrawItem> {
+    techniques::DrawItem item = drawItem(scene.object(index));
     item.casts = item.casts && role == ItemRole::caster;
-    list.put(place, key.id, key.revision, std::move(item));
-  }
+    return item;
+  };
+  // Nothing that it makes can fail.
+  (void)list.follow(
+      objects, scene.changes(), [&](std::uint32_t index) { return keyOf(scene, index); }, make);
 }
 
 ReceiverView receiverView(const techniques::View& screen, const scene::Camera& camera) {
@@ -103,36 +108,45 @@ Result<techniques::DrawItem> cutItem(gl::Context& context, const EngineObject& o
 }
 }  // namespace
 
-Status updateReceivers(ItemList& list, gl::Context& context, const SceneLists& scene,
-                       std::span<const std::uint32_t> receivers, const std::vector<char>& castsForSome,
-                       const ReceiverView& view, std::vector<ObjectId>& cut) {
-  list.resize(receivers.size());
-  const std::vector<ObjectId> cutBefore = std::exchange(cut, {});
-  for (std::size_t place = 0; place < receivers.size(); ++place) {
-    const std::uint32_t index = receivers[place];
-    const planner::ObjectKey& object = scene.keys()[index];
-    const bool casts = castsForSome[index] != 0;
-    const std::uint64_t key = casts ? object.revision : combineKeys(object.revision, view.key);
-    if (!casts) cut.push_back(object.id);
-    if (list.holds(place, object.id, key)) continue;
-    if (casts) {
-      list.put(place, object.id, key, drawItem(scene.object(index)));
-      continue;
+Status ReceiverItems::update(gl::Context& context, const SceneLists& scene,
+                             std::span<const std::uint32_t> receivers, std::vector<char> castsForSome,
+                             const ReceiverView& view) {
+  const bool alike = castsForSome == castsForSome_ && (cut_.empty() || view.key == viewKey_);
+  const bool sameCut = alike && list_.isOf(receivers) && scene.changes().since(seen_);
+  seen_ = 0;
+  castsForSome_ = std::move(castsForSome);
+  const auto keyOfReceiver = [&](std::uint32_t index) {
+    techniques::ItemHistory::Key key = keyOf(scene, index);
+    if (castsForSome_[index] == 0) key.revision = combineKeys(key.revision, view.key);
+    return key;
+  };
+  const auto make = [&](std::uint32_t index) -> Result<techniques::DrawItem> {
+    const EngineObject& object = scene.object(index);
+    if (castsForSome_[index] != 0) return drawItem(object);
+    return cutItem(context, object, view, keyOfReceiver(index).revision);
+  };
+  std::vector<ObjectId> before, now;
+  if (!sameCut) {
+    for (const std::uint32_t index : receivers) {
+      if (castsForSome_[index] == 0) now.push_back(scene.keys()[index].id);
     }
-    auto item = cutItem(context, scene.object(index), view, key);
-    if (!item) {
-      cut.insert(cut.end(), cutBefore.begin(), cutBefore.end());
-      std::ranges::sort(cut);
-      return item.error();
+    std::ranges::sort(now);
+    // Of both until all are made: one that fails leaves the others with their parts.
+    before = cut_;
+    cut_.insert(cut_.end(), now.begin(), now.end());
+  }
+  if (Status s = list_.follow(receivers, alike ? scene.changes() : ListChanges{}, keyOfReceiver, make); !s)
+    return s;
+  if (!sameCut) {
+    // Receivers that went out of view, or cast now, keep no part of themselves.
+    cut_ = std::move(now);
+    for (const ObjectId id : before) {
+      if (std::ranges::binary_search(cut_, id)) continue;
+      if (const EngineObject* object = scene.find(id)) object->cutReceiver = {};
     }
-    list.put(place, object.id, key, *item);
   }
-  std::ranges::sort(cut);
-  // Receivers that went out of view, or cast now, keep no part of themselves.
-  for (const ObjectId id : cutBefore) {
-    if (std::ranges::binary_search(cut, id)) continue;
-    if (const EngineObject* object = scene.find(id)) object->cutReceiver = {};
-  }
+  viewKey_ = view.key;
+  seen_ = scene.changes().revision;
   return {};
 }
 

@@ -116,7 +116,7 @@ Engine::~Engine() {
     state_->lightCaches = {};
     state_->executor.reset();
     state_->shared.forget();
-    state_->receivers.clear();
+    state_->receivers = {};
     state_->objects.clear();
     state_->techniques.clear();
     state_->encoder.reset();

@@ -148,12 +148,12 @@ Status Engine::State::declareFrame(Frame& frame, const scene::Camera& camera) {
                     .receiversUnknown = desc.receivers == Receivers::unknown});
   frame.skips = std::move(framePlan.skips);
   // What shadows nothing is in no light's view: its pixels need none of the care that casters' own do.
-  castsForSome.assign(lists.objects().size(), 0);
+  std::vector<char> castsForSome(lists.objects().size(), 0);
   for (const planner::LightPlan& light : framePlan.lights) {
     for (const std::uint32_t i : light.casters) castsForSome[i] = 1;
   }
-  if (Status s = api::updateReceivers(receivers, *context, lists, framePlan.receivers, castsForSome,
-                                      api::receiverView(frame.view, camera), cutReceivers);
+  if (Status s = receivers.update(*context, lists, framePlan.receivers, std::move(castsForSome),
+                                  api::receiverView(frame.view, camera));
       !s) {
     return s;
   }

@@ -74,13 +74,17 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   LightCache& cache = cacheOf(light);
   const int mapSize = settings->integer("map_size");
   if (cache.key == plan.contentKey && cache.mapSize == mapSize) return;
-  if (cache.casterShapes.values().size() != plan.casters.size()) cache.castersWorld.forget();
-  cache.casterShapes.resize(plan.casters.size());
-  for (std::size_t place = 0; place < plan.casters.size(); ++place) {
-    const planner::ObjectKey& key = lists.keys()[plan.casters[place]];
-    if (cache.casterShapes.holds(place, key.id, key.revision)) continue;
-    cache.casterShapes.put(place, key.id, key.revision, lists.object(plan.casters[place]).shape());
-    cache.castersWorld.changed(place);
+  const std::uint64_t seen = cache.casterShapes.changes().revision;
+  const auto shapeOf = [&](std::uint32_t index) -> Result<planner::CasterShape> {
+    return lists.object(index).shape();
+  };
+  (void)cache.casterShapes.follow(
+      plan.casters, lists.changes(), [&](std::uint32_t index) { return api::keyOf(lists, index); }, shapeOf);
+  const ListChanges shapeChanges = cache.casterShapes.changes();
+  if (const auto places = shapeChanges.since(seen)) {
+    for (const std::uint32_t place : places.places) cache.castersWorld.changed(place);
+  } else {
+    cache.castersWorld.forget();
   }
   const std::span<const planner::CasterShape> shapes = cache.casterShapes.values();
   const scene::Bounds castersWorld = cache.castersWorld.total(
@@ -90,7 +94,7 @@ void Engine::State::fitLight(std::size_t light, const planner::LightPlan& plan) 
   const int mostMapSize =
       std::min({kMostGrowth * mapSize, kMostMapSize, context->capabilities().limits.textureSize});
   cache.fit = cache.fitter.fit(cache.light, cache.casterShapes.values(),
-                               {.mapSize = mapSize, .mostMapSize = mostMapSize});
+                               {.mapSize = mapSize, .mostMapSize = mostMapSize}, shapeChanges);
   cache.key = plan.contentKey;
   cache.mapSize = mapSize;
   cache.reachKey = 0;
@@ -109,13 +113,36 @@ void Engine::State::noteHoles(Frame& frame, std::size_t light, const std::string
                                "finer than 60,000 triangles can");
 }
 
+void Engine::State::listCasters(LightCache& cache, const planner::LightPlan& plan) {
+  const ListChanges objectChanges = lists.changes();
+  const ListChanges::Since moved =
+      cache.casters.isOf(plan.casters) ? objectChanges.since(cache.shadowlessSeen) : ListChanges::Since{};
+  cache.shadowlessSeen = 0;
+  const bool stay = moved && std::ranges::all_of(moved.places, [&](std::uint32_t index) {
+                      return std::ranges::binary_search(plan.casters, index);
+                    });
+  if (!stay) {
+    // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
+    cache.shadowless.clear();
+    auto caster = plan.casters.begin();  // in the order of objects
+    for (std::uint32_t i = 0; i < lists.planned().size(); ++i) {
+      const bool casts = caster != plan.casters.end() && *caster == i;
+      if (casts) ++caster;
+      if (!casts && lists.planned()[i].receives) cache.shadowless.push_back(i);
+    }
+  }
+  api::updateItems(cache.casters, lists, plan.casters, api::ItemRole::caster);
+  api::updateItems(cache.shadowlessReceivers, lists, cache.shadowless, api::ItemRole::shadowless);
+  cache.shadowlessSeen = objectChanges.revision;
+}
+
 Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                                    const planner::FramePlan& framePlan) {
   const planner::LightPlan& plan = framePlan.lights[index];
   FrameLight& target = frame.lights[index];
   LightCache& cache = cacheOf(index);
   fitLight(index, plan);
-  api::updateItems(cache.casters, lists, plan.casters, api::ItemRole::caster);
+  listCasters(cache, plan);
   techniques::Technique* used = technique;
   const bool shadowsNothing = !plan.active || cache.fit.empty || plan.casters.empty();
   if (shadowsNothing) {
@@ -131,15 +158,6 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
   }
   auto choice = choiceFor(frame, index, *used);
   if (!choice) return choice.error();
-  // A caster that shadows nothing was left out of the casters, but it is a receiver like any other.
-  shadowless.clear();
-  auto caster = plan.casters.begin();  // in the order of objects
-  for (std::uint32_t i = 0; i < lists.planned().size(); ++i) {
-    const bool casts = caster != plan.casters.end() && *caster == i;
-    if (casts) ++caster;
-    if (!casts && lists.planned()[i].receives) shadowless.push_back(i);
-  }
-  api::updateItems(cache.shadowlessReceivers, lists, shadowless, api::ItemRole::shadowless);
   const std::uint64_t sceneKey = combineKeys(plan.contentKey, framePlan.sceneRevision);
   double receiverFarDistance = receiverReach(cache, sceneKey);
   if (frame.desc.receivers == Receivers::unknown)
@@ -180,7 +198,7 @@ Status Engine::State::declareLight(Frame& frame, techniques::FramePasses& passes
 double Engine::State::receiverReach(LightCache& cache, std::uint64_t sceneKey) const {
   if (cache.reachKey == sceneKey) return cache.reach.farthest();
   cache.reachKey = sceneKey;
-  return cache.reach.update(cache.fit, lists.planned(), lists.generation(), lists.changed());
+  return cache.reach.update(cache.fit, lists.planned(), lists.changes());
 }
 
 SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& request,
@@ -191,6 +209,7 @@ SplitScene Engine::State::sceneFor(const Frame& frame, const LightRequest& reque
       cache.split.update({.light = cache.light,
                           .fit = cache.fit,
                           .casters = cache.casterShapes.values(),
+                          .casterChanges = cache.casterShapes.changes(),
                           .receiverFarDistance = request.receiverFarDistance,
                           .contentKey = request.contentKey,
                           .mostTexels = context->capabilities().limits.textureSize},
@@ -231,7 +250,7 @@ Status Engine::State::prepareLight(Frame& frame, const LightRequest& request,
     cache.silhouettes = {};  // another technique may see casters from other points
   }
   const std::uint64_t before = cache.silhouettes.extracted();
-  Status prepared = cache.passes->prepare(split.scene, cache.casters.keys());
+  Status prepared = cache.passes->prepare(split.scene, cache.casters.keys(), cache.casters.changes());
   frame.silhouettesExtracted += cache.silhouettes.extracted() - before;
   return prepared;
 }

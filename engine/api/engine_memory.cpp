@@ -7,12 +7,11 @@ namespace halfshadow {
 void Engine::State::forgetDerived() noexcept {
   lastFrame.reset();
   lightCaches = {};
-  receivers.clear();
+  receivers = {};
   lists.listChanged();
   planner = planner::FramePlanner();
   shared.forget();
   if (executor) executor->trim(0);
-  cutReceivers.clear();
   for (auto& [id, object] : objects) object.cutReceiver = {};
 }
 

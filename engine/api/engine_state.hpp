@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/draw_items.hpp"
 #include "api/engine_object.hpp"
 #include "api/frame_desc.hpp"
 #include "api/item_list.hpp"
@@ -41,7 +42,11 @@ namespace halfshadow {
 struct LightCache {
   std::uint64_t key = 0;
   int mapSize = 0;
-  api::ItemList casters, shadowlessReceivers;
+  api::ItemList casters;
+  /// Receivers that are no casters, by index in the scene's lists, which had that revision.
+  std::vector<std::uint32_t> shadowless;
+  std::uint64_t shadowlessSeen = 0;
+  api::ItemList shadowlessReceivers;  ///< of them
   api::KeptList<planner::CasterShape> casterShapes;
   BlockFold<scene::Bounds> castersWorld;  ///< of `casterShapes`
   scene::CasterGroups groups;
@@ -142,11 +147,8 @@ struct Engine::State {
   std::vector<std::uint32_t> lightNumbers;
   planner::FramePlanner planner;
   std::array<LightCache, kMaxLights> lightCaches;  ///< by number
-  api::ItemList receivers;
-  std::vector<char> castsForSome;  ///< by object: among the casters of some light in this frame
-  std::vector<std::uint32_t> shadowless;
-  std::vector<ObjectId> cutReceivers;  ///< see updateReceivers()
-  gl::Counters uploadsTold;            ///< at the end of the last frame
+  api::ReceiverItems receivers;
+  gl::Counters uploadsTold;   ///< at the end of the last frame
   std::uint64_t changes = 0;  ///< of anything that the host set, but settings, which count for themselves
   ReportStorage report;
   std::string message;
@@ -197,6 +199,7 @@ struct Engine::State {
 
   // One light's passes (engine_lights.cpp).
   void fitLight(std::size_t light, const planner::LightPlan& plan);
+  void listCasters(LightCache& cache, const planner::LightPlan& plan);
   Status declareLight(Frame& frame, techniques::FramePasses& passes, std::size_t index,
                       const planner::FramePlan& framePlan);
   /// Says which casters the technique takes for whole though alpha cuts holes into them.

@@ -42,7 +42,7 @@ const planner::SubLights* LightSplit::update(const Inputs& inputs, const techniq
     return nullptr;
   }
   if (contentKey_ != inputs.contentKey || mapSize_ != mapSize || split_.grid != grid) {
-    split_ = planner::fitSubLights(inputs.light, inputs.casters, grid, side, fitter_);
+    split_ = planner::fitSubLights(inputs.light, inputs.casters, grid, side, fitter_, inputs.casterChanges);
     contentKey_ = inputs.contentKey;
     mapSize_ = mapSize;
   }

@@ -21,6 +21,7 @@ class LightSplit {
     const scene::AreaLight& light;
     const planner::LightFit& fit;  ///< of the light seen whole
     std::span<const planner::CasterShape> casters;
+    ListChanges casterChanges;
     double receiverFarDistance = 0.0;
     std::uint64_t contentKey = 0;  ///< of light and casters
     int mostTexels = 0;            ///< a side of a texture

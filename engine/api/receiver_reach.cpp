@@ -90,13 +90,12 @@ double receiverFarDistance(const planner::LightFit& fit, std::span<const planner
 }
 
 double ReceiverReach::update(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects,
-                             std::uint64_t generation,
-                             std::optional<std::span<const std::uint32_t>> changed) {
+                             const ListChanges& changes) {
   const auto isFarthest = [&](std::uint32_t i) { return objects[i].id == farthestId_; };
-  const bool follows = changed && generation_ + 1 == generation && sameWindow(fit, fit_) &&
-                       std::ranges::none_of(*changed, isFarthest);
+  const auto changed = changes.since(seen_);
+  const bool follows = changed && sameWindow(fit, fit_) && std::ranges::none_of(changed.places, isFarthest);
   if (follows) {
-    for (const std::uint32_t i : *changed) {
+    for (const std::uint32_t i : changed.places) {
       const planner::PlannedObject& object = objects[i];
       if (!object.receives || object.boundsWorld.empty() || fit.empty) continue;
       const double reach = reachBeyond(farthest_, fit, object);
@@ -107,7 +106,7 @@ double ReceiverReach::update(const planner::LightFit& fit, std::span<const plann
     farthest_ = found.distance, farthestId_ = found.id;
   }
   fit_ = fit;
-  generation_ = generation;
+  seen_ = changes.revision;
   return farthest_;
 }
 

@@ -5,9 +5,9 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
 #include <span>
 
+#include "base/list_changes.hpp"
 #include "planner/frame_planner.hpp"
 #include "planner/light_fit.hpp"
 #include "scene/bounds.hpp"
@@ -31,14 +31,14 @@ double receiverFarDistance(const planner::LightFit& fit, std::span<const planner
 /// farthest is among them.
 class ReceiverReach {
  public:
-  /// `generation` counts on with every change of the objects; `changed`: by index, since the one before it.
+  /// `changes`: of the objects, by index.
   double update(const planner::LightFit& fit, std::span<const planner::PlannedObject> objects,
-                std::uint64_t generation, std::optional<std::span<const std::uint32_t>> changed);
+                const ListChanges& changes);
   double farthest() const { return farthest_; }
 
  private:
   planner::LightFit fit_;
-  std::uint64_t generation_ = 0;
+  std::uint64_t seen_ = 0;  ///< revision of the objects
   double farthest_ = 0.0;
   std::uint32_t farthestId_ = 0;
 };

@@ -20,9 +20,8 @@ planner::PlannedObject plannedObject(const EngineObject& object) {
 }  // namespace
 
 void SceneLists::update(const std::map<ObjectId, EngineObject>& objects) {
-  ++generation_;
-  changedPlaces_.clear();
   relisted_ = !listed_;
+  changedNow_ = listed_ && !changed_.empty();
   if (!listed_) {
     objects_.clear();
     planned_.clear();
@@ -35,7 +34,10 @@ void SceneLists::update(const std::map<ObjectId, EngineObject>& objects) {
       anyCutOut_ = anyCutOut_ || object.isCutOut();
     }
     listed_ = true;
-  } else {
+    revision_ += 2;
+  } else if (changedNow_) {
+    changedPlaces_.clear();
+    ++revision_;
     for (const ObjectId id : changed_) {
       const auto found = std::ranges::lower_bound(keys_, id, {}, &planner::ObjectKey::id);
       if (found == keys_.end() || found->id != id) continue;
@@ -44,6 +46,9 @@ void SceneLists::update(const std::map<ObjectId, EngineObject>& objects) {
       found->revision = planned_[place].revision;
       changedPlaces_.push_back(place);
     }
+    std::ranges::sort(changedPlaces_);
+    const auto repeated = std::ranges::unique(changedPlaces_);
+    changedPlaces_.erase(repeated.begin(), repeated.end());
   }
   changed_.clear();
 }

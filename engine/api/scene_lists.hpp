@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "api/engine_object.hpp"
+#include "base/list_changes.hpp"
 #include "planner/frame_planner.hpp"
 
 namespace halfshadow::api {
@@ -20,13 +21,13 @@ class SceneLists {
   void listChanged() { listed_ = false; }
   void objectChanged(const EngineObject& object) { changed_.push_back(object.id); }
   void update(const std::map<ObjectId, EngineObject>& objects);
-  /// By index, what the last update found different; none: the list was another.
+  /// By index.
+  ListChanges changes() const { return {revision_, changedPlaces_}; }
+  /// What the last update found different; none: the list was another.
   std::optional<std::span<const std::uint32_t>> changed() const {
-    return relisted_ ? std::nullopt : std::optional<std::span<const std::uint32_t>>(changedPlaces_);
+    if (relisted_) return std::nullopt;
+    return changedNow_ ? changedPlaces_ : std::span<const std::uint32_t>{};
   }
-
-  /// Counts updates.
-  std::uint64_t generation() const { return generation_; }
 
   // By index, in the order of ids.
   const EngineObject& object(std::size_t index) const { return *objects_[index]; }
@@ -44,8 +45,8 @@ class SceneLists {
   std::vector<planner::PlannedObject> planned_;
   std::vector<planner::ObjectKey> keys_;
   std::vector<std::uint32_t> changedPlaces_;
-  bool relisted_ = true, anyCutOut_ = false;
-  std::uint64_t generation_ = 0;
+  bool relisted_ = true, changedNow_ = false, anyCutOut_ = false;
+  std::uint64_t revision_ = 0;
 };
 
 }  // namespace halfshadow::api

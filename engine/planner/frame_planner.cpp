@@ -69,6 +69,8 @@ struct FramePlanner::LightHistory {
   std::vector<char> drawn;              ///< the same by object
   Relevance toAll, toVisible;           ///< receivers
   std::vector<std::uint32_t> casters;   ///< that were drawn, by index
+  std::uint64_t castersKey = 0;         ///< sum of theirs
+  std::uint64_t movesSeen = 0;          ///< up to which it is
   std::vector<char> relevant;           ///< by object, to any receiver
   bool relevantIsToAll = false;         ///< what `toAll` says
   std::uint64_t relevanceOf = 0;        ///< scene, light and camera that `toAll` was last asked for
@@ -115,17 +117,21 @@ void FramePlanner::listObjects(const FrameInput& input) {
 
 /// Whether the camera sees the receiver, and from where on; `frontToBack_` stays sorted.
 void FramePlanner::place(const FrameInput& input, const glm::dmat4& clipFromWorld, std::uint32_t object) {
-  const auto before = std::ranges::find(frontToBack_, object, &Placed::object);
-  if (before != frontToBack_.end()) frontToBack_.erase(before);
+  const auto before = std::ranges::find(receiversInOrder_, object);
+  if (before != receiversInOrder_.end()) {
+    frontToBack_.erase(frontToBack_.begin() + (before - receiversInOrder_.begin()));
+    receiversInOrder_.erase(before);
+  }
   const scene::Bounds& bounds = input.objects[object].boundsWorld;
   visible_[object] = receivers_[object] && (!input.camera || visibleIn(clipFromWorld, bounds)) ? 1 : 0;
   if (!visible_[object]) return;
   const Placed placed{input.camera ? nearestTo(input.camera->eyeWorld, bounds) : 0.0, object};
-  frontToBack_.insert(std::ranges::lower_bound(frontToBack_, placed), placed);
+  const auto after = frontToBack_.insert(std::ranges::lower_bound(frontToBack_, placed), placed);
+  receiversInOrder_.insert(receiversInOrder_.begin() + (after - frontToBack_.begin()), object);
 }
 
-std::vector<std::uint32_t> FramePlanner::movedObjects(const FrameInput& input) {
-  std::vector<std::uint32_t> moved;
+void FramePlanner::findMoved(const FrameInput& input) {
+  foundMoved_.clear(), foundChanges_.clear();
   const auto look = [&](std::uint32_t i) {
     const PlannedObject& object = input.objects[i];
     Known& known = known_[i];
@@ -136,15 +142,20 @@ std::vector<std::uint32_t> FramePlanner::movedObjects(const FrameInput& input) {
     if (known.casts) castersRevision_ += change;
     known.key += change;
     keys_[i].revision = object.revision;
-    moved.push_back(i);
+    foundMoved_.push_back(i);
+    foundChanges_.push_back(change);
   };
   if (input.changed && !objectsListed_) {
-    for (const std::uint32_t i : *input.changed) look(i);
-    std::ranges::sort(moved);
+    std::vector<std::uint32_t> asked(input.changed->begin(), input.changed->end());
+    std::ranges::sort(asked);
+    for (const std::uint32_t i : asked) look(i);
   } else {
     for (std::uint32_t i = 0; i < known_.size(); ++i) look(i);
   }
-  return moved;
+  // Who looks again later is told of the last moves, not that nothing moved since.
+  if (foundMoved_.empty() && !objectsListed_) return;
+  movesRevision_ += objectsListed_ ? 2 : 1;
+  moved_ = foundMoved_, keyChanges_ = foundChanges_;
 }
 
 /// Takes over what changed since the frame before.
@@ -152,14 +163,14 @@ void FramePlanner::observe(const FrameInput& input) {
   const bool told = input.changed && input.objects.size() == keys_.size();
   objectsListed_ = !told && !std::ranges::equal(input.objects, keys_, {}, &PlannedObject::id, &ObjectKey::id);
   if (objectsListed_) listObjects(input);
-  const std::vector<std::uint32_t> moved = movedObjects(input);
+  findMoved(input);
   const std::uint64_t cameraNow = cameraKeyOf(input);
   glm::dmat4 clipFromWorld(1.0);
   if (input.camera) {
     clipFromWorld =
         scene::clipFromView(*input.camera, input.aspectWidthOverHeight) * scene::viewFromWorld(*input.camera);
   }
-  if (objectsListed_ || cameraNow != cameraKey_ || moved.size() > kFewMoved) {
+  if (objectsListed_ || cameraNow != cameraKey_ || foundMoved_.size() > kFewMoved) {
     frontToBack_.clear();
     for (std::uint32_t i = 0; i < known_.size(); ++i) {
       const scene::Bounds& bounds = input.objects[i].boundsWorld;
@@ -169,10 +180,27 @@ void FramePlanner::observe(const FrameInput& input) {
     }
     // Coincident surfaces keep their order: which of them wins stays the same.
     std::ranges::sort(frontToBack_);
+    receiversInOrder_.clear();
+    for (const Placed& placed : frontToBack_) receiversInOrder_.push_back(placed.object);
   } else {
-    for (const std::uint32_t i : moved) place(input, clipFromWorld, i);
+    for (const std::uint32_t i : foundMoved_) place(input, clipFromWorld, i);
   }
   cameraKey_ = cameraNow;
+}
+
+/// The sum of the keys of the casters that were drawn; where few moved since it was last asked for, they
+/// alone are looked at.
+std::uint64_t FramePlanner::castersKeyOf(LightHistory& history) const {
+  if (const auto moved = moves().since(history.movesSeen)) {
+    for (std::size_t k = 0; k < moved.places.size(); ++k) {
+      if (history.drawn[moved.places[k]]) history.castersKey += keyChanges_[k];
+    }
+  } else {
+    history.castersKey = 0;
+    for (const std::uint32_t i : history.casters) history.castersKey += known_[i].key;
+  }
+  history.movesSeen = movesRevision_;
+  return history.castersKey;
 }
 
 LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, LightHistory& history,
@@ -211,7 +239,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
     history.relevanceOf = 0;
   } else if (history.relevanceOf != now || objectsListed_) {
     history.relevanceOf = now;
-    history.toAll.update(input, keys_, light, casters_, receivers_, largestFirst_);
+    history.toAll.update(input, {keys_, moves()}, light, casters_, receivers_, largestFirst_);
     relevantChanged = history.toAll.changed();
     history.relevant.resize(known_.size());
     for (std::uint32_t i = 0; i < known_.size() && (relevantChanged || !history.relevantIsToAll); ++i)
@@ -233,7 +261,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   // Then none can be dropped.
   const bool allVisible = input.receiversUnknown || frontToBack_.size() == largestFirst_.size();
   if ((dynamic || history.reduced) && !allVisible) {
-    history.toVisible.update(input, keys_, light, history.relevant, visible_, largestFirst_);
+    history.toVisible.update(input, {keys_, moves()}, light, history.relevant, visible_, largestFirst_);
     neededInView.resize(known_.size());
     for (std::uint32_t i = 0; i < known_.size(); ++i)
       neededInView[i] = history.toVisible.canShadow(i) ? 1 : 0;
@@ -241,7 +269,9 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   }
   const auto isNeeded = [&](std::uint32_t i) { return (*needed)[i] != 0; };
   bool allDrawn = true;
-  for (std::uint32_t i = 0; i < known_.size(); ++i) allDrawn = allDrawn && (!isNeeded(i) || history.drawn[i]);
+  const bool drawnAreRelevant = history.drawn == history.relevant;
+  for (std::uint32_t i = 0; i < known_.size() && !(drawnAreRelevant && needed == &history.relevant); ++i)
+    allDrawn = allDrawn && (!isNeeded(i) || history.drawn[i]);
   // The cached view may hold more than is needed: it stays.
   const bool cached = !dynamic && !changed && !relevantChanged && allDrawn;
   const bool complete = !dynamic && !cached;
@@ -249,11 +279,11 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   bool anyOutOfView = false;
   std::uint64_t key = lightKey;
   // All that is needed, as in the frame before: mostly so, though one of them moved.
-  const bool sameDrawn = !cached && needed == &history.relevant && !objectsListed_ &&
-                         history.drawn == history.relevant && !history.casters.empty();
+  const bool sameDrawn = !cached && needed == &history.relevant && !objectsListed_ && drawnAreRelevant &&
+                         !history.casters.empty();
   if (sameDrawn) {
     plan.casters = history.casters;
-    for (const std::uint32_t i : plan.casters) key += known_[i].key;
+    key += castersKeyOf(history);
   }
   for (std::uint32_t i = 0; i < known_.size() && !sameDrawn; ++i) {
     const bool drawn = cached ? casters_[i] && history.drawn[i] : isNeeded(i);
@@ -279,6 +309,8 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
   history.key = plan.contentKey;
   if (sameDrawn) return plan;
   history.casters = plan.casters;
+  history.castersKey = key - lightKey;
+  history.movesSeen = movesRevision_;
   history.drawnIds.clear();
   for (const std::uint32_t caster : plan.casters) history.drawnIds.push_back(keys_[caster].id);
   if (!std::ranges::is_sorted(history.drawnIds)) std::ranges::sort(history.drawnIds);
@@ -286,8 +318,7 @@ LightPlan FramePlanner::planLight(const FrameInput& input, std::size_t light, Li
 }
 
 void FramePlanner::listReceivers(const FrameInput& input, FramePlan& plan) const {
-  plan.receivers.reserve(frontToBack_.size());
-  for (const Placed& placed : frontToBack_) plan.receivers.push_back(placed.object);
+  plan.receivers = receiversInOrder_;
   if (frontToBack_.size() == largestFirst_.size()) return;
   for (std::uint32_t i = 0; i < known_.size(); ++i) {
     if (!receivers_[i] || visible_[i]) continue;

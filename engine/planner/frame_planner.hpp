@@ -12,6 +12,7 @@
 #include <span>
 #include <vector>
 
+#include "base/list_changes.hpp"
 #include "planner/light_space.hpp"
 #include "planner/skips.hpp"
 #include "scene/bounds.hpp"
@@ -105,12 +106,13 @@ class FramePlanner {
     auto operator<=>(const Placed&) const = default;
   };
   void observe(const FrameInput& input);
-  /// Places of the objects that are different.
-  std::vector<std::uint32_t> movedObjects(const FrameInput& input);
+  void findMoved(const FrameInput& input);
+  ListChanges moves() const { return {movesRevision_, moved_}; }
   void listObjects(const FrameInput& input);
   void place(const FrameInput& input, const glm::dmat4& clipFromWorld, std::uint32_t object);
   void listReceivers(const FrameInput& input, FramePlan& plan) const;
   LightHistory& historyOf(std::uint32_t number);
+  std::uint64_t castersKeyOf(LightHistory& history) const;
   LightPlan planLight(const FrameInput& input, std::size_t light, LightHistory& history,
                       std::vector<Skip>& skips);
 
@@ -120,6 +122,11 @@ class FramePlanner {
   std::vector<char> casters_, receivers_, visible_;  ///< by object: whether it is one
   std::vector<std::uint32_t> largestFirst_;          ///< receivers, the likeliest to be shadowed first
   std::vector<Placed> frontToBack_;                  ///< visible receivers
+  /// The same without the places, so that lists of receivers are copied from it.
+  std::vector<std::uint32_t> receiversInOrder_;
+  std::vector<std::uint32_t> foundMoved_, moved_;  ///< in this frame; in the last in which any did; ascending
+  std::vector<std::uint64_t> foundChanges_, keyChanges_;  ///< of their keys
+  std::uint64_t movesRevision_ = 0;                       ///< see moves()
   std::uint64_t castersRevision_ = 0, sceneRevision_ = 0;
   bool objectsListed_ = false;  ///< in this frame the list of objects was another
   std::vector<std::unique_ptr<LightHistory>> histories_;

@@ -149,7 +149,15 @@ LightFitter::Extent LightFitter::extentOf(const CasterShape& caster) const {
   return extent;
 }
 
-void LightFitter::measure(std::span<const CasterShape> casters) {
+void LightFitter::measure(std::span<const CasterShape> casters, const ListChanges& changes) {
+  if (const auto places = changes.since(seen_)) {
+    for (const std::uint32_t place : places.places) {
+      extents_[place] = extentOf(casters[place]);
+      totals_.changed(place);
+      ++castersMeasured_;
+    }
+    return;
+  }
   // Those of the frame before stay where they are, while they are the same.
   std::size_t same = 0;
   const std::size_t common = std::min(extents_.size(), casters.size());
@@ -211,18 +219,20 @@ void LightFitter::fitCutTangents(std::span<const CasterShape> casters, double ne
 }
 
 LightFit LightFitter::fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
-                          const LightFitOptions& options) {
+                          const LightFitOptions& options, const ListChanges& changes) {
   const LightSpace space = lightSpace(light);
   const double nearLightDistance = options.nearShare * 2.0 * std::max(space.halfSize.x, space.halfSize.y);
   if (!sameSpace(space, space_) || nearLightDistance != nearLightDistance_ ||
       options.centerSpread != centerSpread_) {
     extents_.clear();
     totals_.forget();
+    seen_ = 0;
   }
   centerSpread_ = options.centerSpread;
   space_ = space;
   nearLightDistance_ = nearLightDistance;
-  measure(casters);
+  measure(casters, changes);
+  seen_ = changes.revision;
   LightFit fit{.lightFromWorld = space.matrix(), .halfSize = space.halfSize, .mapSize = options.mapSize};
   const Total total = totals_.total(
       extents_.size(), [&](Total& part, std::size_t place) { part.include(extents_[place]); },

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/block_fold.hpp"
+#include "base/list_changes.hpp"
 #include "planner/light_space.hpp"
 #include "scene/bounds.hpp"
 #include "scene/light.hpp"
@@ -83,8 +84,9 @@ class LightFitter {
  public:
   /// Smallest view of the casters' points that fulfils the options; extents grow in steps of 1/16 octave and
   /// the origin is snapped to whole texels, so that a moving caster does not make static shadow edges crawl.
+  /// `changes`: of the casters, by place.
   LightFit fit(const scene::AreaLight& light, std::span<const CasterShape> casters,
-               const LightFitOptions& options);
+               const LightFitOptions& options, const ListChanges& changes = {});
   /// Casters whose points were looked at, since it was made.
   std::uint64_t castersMeasured() const { return castersMeasured_; }
 
@@ -107,7 +109,7 @@ class LightFitter {
     void include(const Part& part);
   };
   Extent extentOf(const CasterShape& caster) const;
-  void measure(std::span<const CasterShape> casters);
+  void measure(std::span<const CasterShape> casters, const ListChanges& changes);
   void fitCutTangents(std::span<const CasterShape> casters, double nearDistance, glm::dvec2& low,
                       glm::dvec2& high) const;
 
@@ -117,6 +119,7 @@ class LightFitter {
   std::vector<Extent> extents_;  ///< of the casters in their order
   std::vector<Extent> before_;   ///< of the frame before, while they are sorted in
   BlockFold<Total> totals_;      ///< of `extents_`
+  std::uint64_t seen_ = 0;       ///< revision of the casters that `extents_` are of
   std::uint64_t castersMeasured_ = 0;
 };
 

@@ -20,9 +20,14 @@ namespace halfshadow::planner {
 /// moves.
 class Relevance {
  public:
-  /// `keys`, `casters` and `receivers`: of the objects, by index. Receivers are tried in the order of
-  /// `likelyFirst`, which names all of them.
-  void update(const FrameInput& input, std::span<const ObjectKey> keys, std::size_t light,
+  /// The objects, by index.
+  struct Objects {
+    std::span<const ObjectKey> keys;
+    ListChanges changes;
+  };
+  /// `casters` and `receivers`: by object. Receivers are tried in the order of `likelyFirst`, which names all
+  /// of them.
+  void update(const FrameInput& input, const Objects& objects, std::size_t light,
               const std::vector<char>& casters, const std::vector<char>& receivers,
               std::span<const std::uint32_t> likelyFirst);
   /// The last update found another answer for some caster.
@@ -48,11 +53,12 @@ class Relevance {
     std::uint64_t revision = 0;
     bool receives = false;  ///< was in the set
   };
+  void forgetMoved(std::span<const ObjectKey> keys, std::span<const std::uint32_t> moved);
   void forgetChanged(std::span<const ObjectKey> keys, const std::vector<char>& receivers);
+  void judge(const FrameInput& input, std::uint32_t caster, std::span<const std::uint32_t> likelyFirst);
   void askAgainByCamera(const FrameInput& input);
   bool meets(const FrameInput& input, std::uint32_t caster, std::uint32_t receiver, SkipReason& reason);
-  Verdict searched(const FrameInput& input, std::uint32_t caster, const std::vector<char>& receivers,
-                   std::span<const std::uint32_t> likelyFirst);
+  Verdict searched(const FrameInput& input, std::uint32_t caster, std::span<const std::uint32_t> likelyFirst);
 
   std::uint64_t lightRevision_ = 0, cameraKey_ = 0;
   scene::AreaLight light_;
@@ -60,10 +66,13 @@ class Relevance {
   Separation separation_;
   std::vector<Known> known_;  ///< by index, as all that follows
   std::vector<Verdict> verdicts_;
-  std::vector<char> couldShadow_;  ///< in the update before
-  std::vector<char> fresh_;        ///< receivers that are new in the set or moved
+  std::vector<char> casters_, receivers_;  ///< of the last update
+  std::vector<char> couldShadow_;          ///< in the update before
+  std::vector<char> fresh_;                ///< receivers that are new in the set or moved
   std::vector<std::uint32_t> freshReceivers_;
+  std::vector<std::uint32_t> asked_;  ///< casters whose verdicts are to be looked at
   std::vector<Apart> apart_;
+  std::uint64_t seen_ = 0;  ///< revision of the objects
   bool changed_ = false;
   std::uint64_t pairsAsked_ = 0;
 };

@@ -61,7 +61,7 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3
 }
 
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
-                       const SubLightGrid& grid, int side, LightFitter& fitter) {
+                       const SubLightGrid& grid, int side, LightFitter& fitter, const ListChanges& changes) {
   const LightSpace space = lightSpace(light);
   const auto inPlane = [&](const glm::dvec3& vector) {
     return glm::dvec2(glm::dot(space.axisX, vector), glm::dot(space.axisY, vector));
@@ -74,7 +74,8 @@ SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShap
   lights.stepU = 2.0 * shareU;
   lights.stepV = 2.0 * shareV;
   const glm::dvec2 spread = glm::abs(halfU - shareU) + glm::abs(halfV - shareV);
-  lights.shared = fitter.fit(light, casters, {.mapSize = side, .nearShare = 0.0, .centerSpread = spread});
+  lights.shared =
+      fitter.fit(light, casters, {.mapSize = side, .nearShare = 0.0, .centerSpread = spread}, changes);
   if (lights.shared.empty) return lights;
   for (int j = 0; j < grid.alongV; ++j) {
     for (int i = 0; i < grid.alongU; ++i) {

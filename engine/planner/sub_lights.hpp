@@ -55,7 +55,8 @@ struct SubLights {
 /// `side`: texels of each map a side. `empty` fits when no caster lies before the light. `fitter`: of this
 /// light's splits alone.
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const CasterShape> casters,
-                       const SubLightGrid& grid, int side, LightFitter& fitter);
+                       const SubLightGrid& grid, int side, LightFitter& fitter,
+                       const ListChanges& changes = {});
 /// The same once.
 SubLights fitSubLights(const scene::AreaLight& light, std::span<const glm::dvec3> casterPointsWorld,
                        const SubLightGrid& grid, int side);

@@ -9,6 +9,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "api/item_list.hpp"
 #include "api/receiver_reach.hpp"
 
 namespace halfshadow::techniques {
@@ -55,6 +56,27 @@ bool sameTexels(const TexelRect& a, const TexelRect& b) {
          (a.lowX == b.lowX && a.lowY == b.lowY && a.highX == b.highX && a.highY == b.highY);
 }
 
+/// How one list became the other: which places changed, or that it is another list.
+class Counted {
+ public:
+  ListChanges changes(std::span<const ItemHistory::Key> keys) {
+    const bool same =
+        std::ranges::equal(keys, keys_, {}, &ItemHistory::Key::object, &ItemHistory::Key::object);
+    places_.clear();
+    for (std::uint32_t i = 0; i < keys.size() && same; ++i) {
+      if (keys[i] != keys_[i]) places_.push_back(i);
+    }
+    revision_ += same ? 1 : 2;
+    keys_.assign(keys.begin(), keys.end());
+    return {revision_, places_};
+  }
+
+ private:
+  std::vector<ItemHistory::Key> keys_;
+  std::vector<std::uint32_t> places_;
+  std::uint64_t revision_ = 0;
+};
+
 const MapWindow kWindow{glm::perspective(1.2, 1.0, 0.5, 100.0), {64, 128, 512, 256}};
 
 TEST(ItemHistory, FollowsListsAsTheyChange) {
@@ -63,13 +85,16 @@ TEST(ItemHistory, FollowsListsAsTheyChange) {
     ItemHistory history;
     ItemPlaces places;
     std::uint64_t generation = 1, told = 0;
+    Counted counted;
     for (int frame = 0; frame < 300; ++frame) {
       const std::vector<ItemHistory::Key> before = list.keys();
       if (frame > 0) list.step();
       const std::vector<ItemHistory::Key> keys = list.keys();
       const std::uint64_t held = history.generation();
+      // Now and then it is told what changed.
+      const ListChanges changes = counted.changes(keys);
       history.update(list.items, frame % 2 == 0 ? std::span(keys) : std::span<const ItemHistory::Key>{},
-                     generation);
+                     generation, frame % 5 < 3 ? changes : ListChanges{});
       EXPECT_EQ(history.generation() == held, frame > 0 && before == keys) << frame;
       places.update(history, kWindow);
       ASSERT_EQ(places.texels().size(), list.items.size());
@@ -115,6 +140,66 @@ TEST(ItemHistory, TexelsHoldAllThatIsProjected) {
   }
 }
 
+/// A scene of numbers, of which a list keeps some; values are made from what an object is, and whoever
+/// follows the list by what it says of its changes has them all.
+TEST(KeptList, HoldsWhatItsObjectsAreAndSaysWhatChanged) {
+  for (const std::uint32_t seed : {1u, 2u, 3u}) {
+    std::mt19937 random(seed);
+    std::vector<std::uint64_t> revisions(60, 1);
+    std::uint64_t sceneRevision = 2, seen = 0, made = 0, lookedAt = 0;
+    api::KeptList<std::uint64_t> list;
+    std::vector<std::uint64_t> follower;
+    std::vector<std::uint32_t> lastChanged;
+    const auto keyOf = [&](std::uint32_t object) {
+      ++lookedAt;
+      return ItemHistory::Key{object, revisions[object]};
+    };
+    for (int frame = 0; frame < 400; ++frame) {
+      std::vector<std::uint32_t> objects, changed;
+      for (int i = 0; i < frame % 4; ++i) changed.push_back(random() % revisions.size());
+      if (frame % 50 == 0) changed.resize(20, 7u);
+      std::ranges::sort(changed);
+      const auto repeated = std::ranges::unique(changed);
+      changed.erase(repeated.begin(), repeated.end());
+      for (const std::uint32_t object : changed) ++revisions[object];
+      if (!changed.empty()) {
+        ++sceneRevision;
+        lastChanged = changed;
+      }
+      // Another selection every now and then, in any order; frames that the list does not hear of; failures.
+      const std::uint32_t selection = static_cast<std::uint32_t>(frame) / 20;
+      for (std::uint32_t object = 0; object < revisions.size(); ++object) {
+        if ((object + selection) % 3 != 0) objects.push_back(selection % 2 == 0 ? object : 59 - object);
+      }
+      if (frame % 17 == 0) continue;
+      const bool fails = frame % 23 == 0;
+      const auto make = [&](std::uint32_t object) -> Result<std::uint64_t> {
+        if (fails && object % 4 == 0) return Error{ErrorCode::outOfMemory, "no memory"};
+        ++made;
+        return 1000 * object + revisions[object];
+      };
+      lookedAt = 0;
+      const bool same = list.isOf(objects);
+      if (!list.follow(objects, {sceneRevision, lastChanged}, keyOf, make)) continue;
+      if (same && frame % 17 != 1 && frame % 23 != 1) {
+        EXPECT_LE(lookedAt, lastChanged.size());
+      }
+      ASSERT_EQ(list.values().size(), objects.size());
+      for (std::size_t place = 0; place < objects.size(); ++place)
+        EXPECT_EQ(list.values()[place], 1000 * objects[place] + revisions[objects[place]]) << frame;
+      const ListChanges changes = list.changes();
+      if (const auto places = changes.since(seen)) {
+        for (const std::uint32_t place : places.places) follower[place] = list.values()[place];
+      } else {
+        follower.assign(list.values().begin(), list.values().end());
+      }
+      seen = changes.revision;
+      EXPECT_TRUE(std::ranges::equal(follower, list.values())) << frame;
+    }
+    EXPECT_LT(made, 400u * 8u);
+  }
+}
+
 /// Boxes under a light, of which some move: kept or found anew, the farthest reaches as far.
 TEST(ReceiverReach, IsKept) {
   std::mt19937 random(7);
@@ -137,17 +222,16 @@ TEST(ReceiverReach, IsKept) {
   const std::vector<glm::dvec3> corners{{-2, 0, -2}, {2, 0, -2}, {2, 0, 2}, {-2, 1, 2}};
   planner::LightFit fit = planner::fitLight(light, corners, {});
   api::ReceiverReach reach;
-  std::uint64_t generation = 0;
+  std::uint64_t revision = 1;
   for (int frame = 0; frame < 400; ++frame) {
     std::vector<std::uint32_t> changed;
     for (int i = 0; i < frame % 3; ++i) place(changed.emplace_back(random() % objects.size()));
     // Now and then a frame is not asked about, or the window is another.
-    generation += frame % 19 == 0 ? 2 : 1;
+    revision += frame % 19 == 0 ? 2 : 1;
     const bool told = frame % 23 != 0;
     if (frame % 31 == 0) fit.tangentHigh.x += 0.01;
-    const auto changes = told ? std::optional<std::span<const std::uint32_t>>(changed) : std::nullopt;
-    EXPECT_EQ(reach.update(fit, objects, generation, changes), api::receiverFarDistance(fit, objects))
-        << frame;
+    const ListChanges changes{told ? revision : 0, changed};
+    EXPECT_EQ(reach.update(fit, objects, changes), api::receiverFarDistance(fit, objects)) << frame;
   }
 }
 

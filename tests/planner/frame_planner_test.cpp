@@ -287,6 +287,9 @@ TEST(FramePlanner, KeptAnswersAreThoseOfAFreshPlanner) {
     const FramePlan expected = field.plan(fresh), plan = field.plan(kept);
     EXPECT_EQ(plan.receivers, expected.receivers) << frame;
     EXPECT_EQ(plan.sceneRevision, expected.sceneRevision) << frame;
+    if (plan.lights[0].casters == expected.lights[0].casters) {
+      EXPECT_EQ(plan.lights[0].contentKey, expected.lights[0].contentKey) << frame;
+    }
     // A moving scene may drop casters whose shadows no one sees, and never draws one that shadows nothing
     // unless it did before.
     for (const Skip& skip : expected.skips) {

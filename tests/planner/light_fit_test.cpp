@@ -294,13 +294,22 @@ TEST(LightFit, OfManyCastersIsThatOfAFreshFitter) {
   }
   const scene::AreaLight light = lightAbove({0, 12, 0}, 1.0);
   LightFitter kept;
+  std::uint64_t listed = 1, measured = 0;
   for (int frame = 0; frame < 200; ++frame) {
-    for (int i = 0; i < frame % 3; ++i) place(random() % casters.size());
+    std::vector<std::uint32_t> changed;
+    for (int i = 0; i < frame % 3; ++i) place(changed.emplace_back(random() % casters.size()));
     if (frame % 17 == 0) {
       const auto gone = static_cast<std::ptrdiff_t>(random() % casters.size());
       points.erase(points.begin() + gone), casters.erase(casters.begin() + gone);
     }
-    const LightFit fit = kept.fit(light, casters, {}), fresh = fitLight(light, casters, {});
+    // Now and then it is not told what changed, or a frame is left out.
+    listed += frame % 17 == 0 || frame % 13 == 0 ? 2 : 1;
+    const ListChanges changes{frame % 5 == 0 ? 0 : listed, changed};
+    const LightFit fit = kept.fit(light, casters, {}, changes), fresh = fitLight(light, casters, {});
+    if (frame > 0) {
+      EXPECT_LE(kept.castersMeasured() - measured, changed.size()) << frame;
+    }
+    measured = kept.castersMeasured();
     ASSERT_EQ(fit.tangentLow, fresh.tangentLow) << frame;
     ASSERT_EQ(fit.tangentHigh, fresh.tangentHigh) << frame;
     ASSERT_EQ(fit.nearDistance, fresh.nearDistance) << frame;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace halfshadow::techniques {
 namespace {
@@ -30,8 +31,18 @@ scene::Bounds rasterisedBounds(const DrawItem& item) {
   return bounds;
 }
 
+std::size_t mostChanges(std::size_t items) {
+  return static_cast<std::size_t>(kMostChanged * static_cast<double>(items)) + kFewItems;
+}
+
 ItemHistory::Known knownOf(const DrawItem& item) {
   return {rasterisedBounds(item), workOf(item)};
+}
+
+bool stay(std::span<const ItemHistory::Change> changes) {
+  return std::ranges::all_of(changes, [](const ItemHistory::Change& change) {
+    return change.before != ItemHistory::kNowhere && change.after != ItemHistory::kNowhere;
+  });
 }
 
 /// Values of a list's items, to the places that the items have now; those of changed ones are made anew.
@@ -39,10 +50,7 @@ template <typename Value>
 void moveAlong(std::span<const ItemHistory::Change> changes, std::vector<Value>& values,
                std::vector<Value>& scratch) {
   constexpr std::uint32_t kNowhere = ItemHistory::kNowhere;
-  const bool stay = std::ranges::all_of(changes, [](const ItemHistory::Change& change) {
-    return change.before != kNowhere && change.after != kNowhere;
-  });
-  if (stay) return;
+  if (stay(changes)) return;
   std::swap(values, scratch);
   values.clear();
   auto from = scratch.begin();
@@ -64,8 +72,17 @@ std::uint32_t workOf(const DrawItem& item) {
 }
 
 /// False when too many are different.
+bool ItemHistory::takeChanges(std::span<const DrawItem> items, std::span<const std::uint32_t> places) {
+  changes_.clear();
+  if (places.size() > mostChanges(items.size())) return false;
+  for (const std::uint32_t place : places)
+    changes_.push_back({place, place, items_[place].boundsWorld, rasterisedBounds(items[place])});
+  return true;
+}
+
+/// The same where they are to be found.
 bool ItemHistory::findChanges(std::span<const DrawItem> items, std::span<const Key> keys) {
-  const auto most = static_cast<std::size_t>(kMostChanged * static_cast<double>(items.size())) + kFewItems;
+  const std::size_t most = mostChanges(items.size());
   changes_.clear();
   std::uint32_t before = 0, after = 0;
   while (before < keys_.size() || after < keys.size()) {
@@ -98,20 +115,28 @@ void ItemHistory::takeOver(std::span<const DrawItem> items, std::span<const Key>
     items_[change.after] = knownOf(items[change.after]);
     work_ += items_[change.after].work;
   }
-  keys_.assign(keys.begin(), keys.end());
+  if (stay(changes_)) {
+    for (const Change& change : changes_) keys_[change.after] = keys[change.after];
+  } else {
+    keys_.assign(keys.begin(), keys.end());
+  }
 }
 
 void ItemHistory::update(std::span<const DrawItem> items, std::span<const Key> keys,
-                         std::uint64_t& nextGeneration) {
+                         std::uint64_t& nextGeneration, const ListChanges& changes) {
+  const auto places = changes.since(std::exchange(seen_, 0));
   if (keys.size() != items.size()) {
     listed_.clear();
     for (const DrawItem& item : items) listed_.push_back({item.object, item.revision});
     keys = listed_;
   }
   const std::uint64_t held = generation_;
-  if (generation_ != 0 && findChanges(items, keys)) {
+  if (generation_ != 0 && (places ? takeChanges(items, places.places) : findChanges(items, keys))) {
     generationBefore_ = held;
-    if (changes_.empty()) return;
+    if (changes_.empty()) {
+      seen_ = changes.revision;
+      return;
+    }
     takeOver(items, keys);
   } else {
     changes_.clear();
@@ -125,6 +150,7 @@ void ItemHistory::update(std::span<const DrawItem> items, std::span<const Key> k
     }
   }
   generation_ = nextGeneration++;
+  seen_ = changes.revision;
 }
 
 void TexelRect::include(const TexelRect& other) {

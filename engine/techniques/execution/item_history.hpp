@@ -10,6 +10,7 @@
 #include <span>
 #include <vector>
 
+#include "base/list_changes.hpp"
 #include "base/rect.hpp"
 #include "scene/bounds.hpp"
 #include "techniques/core/draw_item.hpp"
@@ -38,7 +39,9 @@ class ItemHistory {
   };
   /// Takes over what the list holds now. `keys`: of its items, where the caller has them apart, so that
   /// looking through all touches little memory. `nextGeneration` is counted on where the list is different.
-  void update(std::span<const DrawItem> items, std::span<const Key> keys, std::uint64_t& nextGeneration);
+  /// `changes`: of the items, by place.
+  void update(std::span<const DrawItem> items, std::span<const Key> keys, std::uint64_t& nextGeneration,
+              const ListChanges& changes = {});
 
   std::uint64_t generation() const { return generation_; }
   /// Of which the changes lead to the generation that is now; 0: of none, since too much is different.
@@ -50,12 +53,14 @@ class ItemHistory {
 
  private:
   bool findChanges(std::span<const DrawItem> items, std::span<const Key> keys);
+  bool takeChanges(std::span<const DrawItem> items, std::span<const std::uint32_t> places);
   void takeOver(std::span<const DrawItem> items, std::span<const Key> keys);
 
   std::vector<Key> keys_, listed_;
   std::vector<Known> items_, before_;
   std::vector<Change> changes_;
   std::uint64_t generation_ = 0, generationBefore_ = 0;
+  std::uint64_t seen_ = 0;  ///< revision of the items
   std::uint64_t work_ = 0;
 };
 

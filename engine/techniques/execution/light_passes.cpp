@@ -74,10 +74,11 @@ void drawReadBack(framegraph::PassContext& context, gl::Program& program, const 
 }
 }  // namespace
 
-Status LightPasses::prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys) {
+Status LightPasses::prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys,
+                            const ListChanges& casterChanges) {
   plan_ = {};
   if (Status s = planner_->plan(scene, plan_); !s) return s;
-  updates_.begin(plan_, updateRuleOf(scene.settings), {scene.casters, casterKeys});
+  updates_.begin(plan_, updateRuleOf(scene.settings), {scene.casters, casterKeys, casterChanges});
   return {};
 }
 

@@ -53,8 +53,10 @@ class LightPasses {
  public:
   explicit LightPasses(std::unique_ptr<LightPlanner> planner) : planner_(std::move(planner)) {}
 
-  /// CPU only. `casterKeys`: of the scene's casters, or none. Errors: those of LightPlanner::plan().
-  Status prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys = {});
+  /// CPU only. `casterKeys`, `casterChanges`: of the scene's casters, or none. Errors: those of
+  /// LightPlanner::plan().
+  Status prepare(const LightScene& scene, std::span<const ItemHistory::Key> casterKeys = {},
+                 const ListChanges& casterChanges = {});
   /// Links programs, and uploads what changed since the last frame. Errors: shaderFailed, outOfMemory.
   Status upload(Device& device);
   /// What the passes draw with. After upload().

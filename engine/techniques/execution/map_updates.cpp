@@ -125,7 +125,11 @@ void MapUpdates::follow(const PlannedPass& pass, PassNow& now, UpdateRule rule, 
     if (listsNow_[list].takenOver) continue;
     const std::span<const DrawItem> items = listsNow_[list].items;
     const bool keyed = items.data() == casters.items.data() && items.size() == casters.items.size();
-    lists_[list].update(items, keyed ? casters.keys : std::span<const ItemHistory::Key>{}, nextGeneration_);
+    if (keyed) {
+      lists_[list].update(items, casters.keys, nextGeneration_, casters.changes);
+    } else {
+      lists_[list].update(items, {}, nextGeneration_);
+    }
     listsNow_[list].takenOver = true;
   }
   if (known == drawn_.end()) return;

@@ -40,6 +40,7 @@ class MapUpdates {
   struct KeyedItems {
     std::span<const DrawItem> items;
     std::span<const ItemHistory::Key> keys;
+    ListChanges changes;
   };
   /// Finds what of the plan's passes is different from what they drew. The plan stays until the frame ends.
   void begin(const PassPlan& plan, UpdateRule rule, const KeyedItems& casters);
