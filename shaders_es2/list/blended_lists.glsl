@@ -151,6 +151,6 @@ HS_HIGHP float hs_blendedOwn() {
 #if defined(HS_HALF) && HS_HALF == 1
   hs_lit = 1.0;  // the other half tells
 #endif
-  return blended ? 1.0 - dot(all.share, HS_Quads(0.25)) : hs_lit;
+  return hs_limitedLight(blended ? 1.0 - dot(all.share, HS_Quads(0.25)) : hs_lit);
 }
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Copyright (c) 2026 The Halfshadow authors
 // Walks the silhouette vertices that matter for the fragment's tile of its receiver. The including file defines
-// HS_SUB_LIGHTS, the number of sub-lights. Needs list_vertices.glsl.
+// HS_SUB_LIGHTS, the number of sub-lights. Needs list_vertices.glsl and half_plane.glsl.
 // HS_ON_SCREEN: of the receiver that an earlier pass left on the screen; needs screen_receiver.glsl, too.
 #ifdef HS_ON_SCREEN
 #define HS_PLANE hs_facetPlane
@@ -28,6 +28,9 @@ uniform HS_HIGHP vec4 u_tileOfTangent;  // tile = squeezed tangent · xy + zw
 uniform HS_HIGHP vec4 u_tileAtlas;      // xy: columns and rows of the receiver's tiles, zw: first texel
 #if defined(HS_CASTING_RECEIVER) && (defined(HS_PLANE) || defined(HS_DERIVATIVES))
 #define HS_LIFTED
+#ifndef HS_NO_HIGHP
+#define HS_LIMITED  // by the facet: half precision does not know its plane well enough
+#endif
 #endif
 
 HS_HIGHP vec3 hs_receiver = vec3(0.0);  // (t, i)
@@ -39,6 +42,24 @@ bool hs_listed = false;
 bool hs_apart = false;  // no two casters of the list overlap
 #ifdef HS_AMONG_RECEIVERS
 bool hs_among = false;  // some vertices may lie beside or behind the receiver
+#endif
+#ifdef HS_LIMITED
+// Of the light, the share that lies before the receiver's own facet; no more of it is seen. The lists alone let a receiver
+// that stands a step off its facet look past the facet's edge.
+HS_HIGHP float hs_beforeFacet = 1.0;
+#ifdef HS_HALF
+#define HS_LIGHT_PART vec4(0.0, float(HS_HALF) - 0.5, 2.0, 1.0)  // middle and sides of what is asked for
+#else
+#define HS_LIGHT_PART vec4(0.0, 0.0, 2.0, 2.0)
+#endif
+
+// `rounding`: of hs_facet, which is no shadow.
+HS_HIGHP float hs_shareBefore(HS_HIGHP vec3 rounding) {
+  HS_HIGHP vec3 size = abs(hs_facet);
+  HS_HIGHP float unit = 1.0 / max(max(size.x, size.y), max(size.z, HS_SMALL));
+  HS_HIGHP float above = dot(hs_facet, vec3(HS_LIGHT_PART.xy, 1.0)) + dot(rounding, vec3(1.0));
+  return hs_shareInside(unit * above, unit * HS_LIGHT_PART.zw * size.xy);
+}
 #endif
 
 // Finds the fragment's tile, and where it stands.
@@ -89,21 +110,46 @@ void hs_findList() {
   // A surface must not be cut by the silhouettes of its own edges. Planes stay planes in (t, i).
 #ifdef HS_PLANE
   HS_HIGHP vec3 n = HS_PLANE.xyz;
+#ifdef HS_LIMITED
+  HS_HIGHP vec3 rounding = HS_PLANE_ROUNDING * u_listPlace.w * abs(n);
+#ifdef HS_ON_SCREEN
+  rounding += hs_planeTurn;
+#endif
+#endif
   hs_receiver -= n * ((dot(n, hs_receiver) + HS_PLANE.w) / max(dot(n, n), HS_SMALL));
 #else
-  HS_HIGHP vec3 n = cross(dFdx(hs_receiver), dFdy(hs_receiver));
+  HS_HIGHP vec3 alongX = dFdx(hs_receiver), alongY = dFdy(hs_receiver);
+  HS_HIGHP vec3 n = cross(alongX, alongY);
+#ifdef HS_LIMITED
+  HS_HIGHP vec3 turn = abs(alongX) + abs(alongY), place = HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_receiver);
+  HS_HIGHP vec3 rounding = place.yzx * turn.zxy + place.zxy * turn.yzx;
+#endif
 #endif
   // Towards the eye: that side of the surface is seen.
   n *= dot(n, u_eyeLight.xyz - u_eyeLight.w * hs_receiver) < 0.0 ? -1.0 : 1.0;
   hs_away = sign(n);
-#if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
   hs_facet = n;
-#endif
   // No light falls on this side of a facet that all of it lies behind.
   if (!hs_outside && n.z < -abs(n.x) - abs(n.y)) {
     hs_listed = hs_apart = false;
     hs_lit = 0.0;
   }
+#ifdef HS_LIMITED
+  if (!hs_outside) hs_beforeFacet = hs_shareBefore(rounding);
+#endif
+#endif
+}
+
+// Visible sub-lights as far as the receiver's own facet lets them be seen.
+HS_HIGHP float hs_limitedLight(HS_HIGHP float visible) {
+#ifdef HS_LIMITED
+#ifdef HS_HALF
+  return min(visible, 0.5 + 0.5 * hs_beforeFacet);
+#else
+  return min(visible, HS_SUB_LIGHTS * hs_beforeFacet);
+#endif
+#else
+  return visible;
 #endif
 }
 

@@ -109,5 +109,5 @@ HS_HIGHP float hs_gatheredLight() {
     if (tags.ends > 2.5) break;
   }
 #endif
-  return hs_lit;
+  return hs_limitedLight(hs_lit);
 }

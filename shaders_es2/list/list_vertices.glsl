@@ -94,7 +94,7 @@ struct HS_Tags {
 #endif
 };
 
-#if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED)
+#if defined(HS_BEHIND_FACETS) || defined(HS_ONE_SIDED) || defined(HS_CASTING_RECEIVER)
 HS_HIGHP vec3 hs_facet = vec3(0.0);  // how the plane of the receiver's facet rises along (t, i), on its visible side
 HS_HIGHP float hs_facetRounding = 0.0;  // for vertices of one step: they are known to lie off that plane where they rise by more
 // How far a vertex, relative to the receiver, rises off that plane, less what the plane's own rounding makes of its distance:

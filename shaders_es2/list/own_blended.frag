@@ -12,6 +12,7 @@
 #include "screen/receiver_position.glsl"
 #include "list/screen_receiver.glsl"
 #define HS_SUB_LIGHTS 1.0
+#include "map/half_plane.glsl"
 #include "list/caster_lists.glsl"
 #include "list/vbuffer_walk.glsl"
 #include "list/facet_tree.glsl"

@@ -14,6 +14,7 @@
 #include "list/list_vertices.glsl"
 #include "screen/receiver_position.glsl"
 #include "list/screen_receiver.glsl"
+#include "map/half_plane.glsl"
 #include "list/caster_lists.glsl"
 #include "list/cell_walk.glsl"
 #include "list/light_grid.glsl"

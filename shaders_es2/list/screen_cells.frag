@@ -7,6 +7,7 @@
 #define HS_SUB_LIGHTS 4.0
 #include "list/cell_coverage.glsl"
 #include "list/list_vertices.glsl"
+#include "map/half_plane.glsl"
 #include "list/caster_lists.glsl"
 #include "list/cell_walk.glsl"
 #include "list/light_grid.glsl"

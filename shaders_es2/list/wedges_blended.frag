@@ -9,6 +9,7 @@
 #include "list/vbuffer_merge.glsl"
 #include "list/list_vertices.glsl"
 #define HS_SUB_LIGHTS 1.0
+#include "map/half_plane.glsl"
 #include "list/caster_lists.glsl"
 #include "list/vbuffer_walk.glsl"
 #include "list/facet_tree.glsl"
@@ -16,7 +17,7 @@
 
 float halfshadow_class() {
   hs_findList();
-  return hs_listed ? -1.0 : hs_lit;
+  return hs_listed ? -1.0 : hs_limitedLight(hs_lit);
 }
 
 float halfshadow_visibility() {

@@ -6,6 +6,7 @@
 #include "list/cell_coverage.glsl"
 #include "list/list_vertices.glsl"
 #define HS_SUB_LIGHTS 4.0
+#include "map/half_plane.glsl"
 #include "list/caster_lists.glsl"
 #include "list/cell_walk.glsl"
 #include "list/light_grid.glsl"
@@ -14,7 +15,7 @@
 
 float halfshadow_class() {
   hs_findList();
-  return hs_listed ? -1.0 : 0.25 * hs_lit;
+  return hs_listed ? -1.0 : 0.25 * hs_limitedLight(hs_lit);
 }
 
 float halfshadow_visibility() { return 0.25 * hs_gatheredLight(); }
