@@ -43,6 +43,7 @@ float hs_filter(HS_HIGHP vec2 width) {
   HS_HIGHP float side = widest < u_kernels.x ? u_kernels.x : (widest < u_kernels.y ? u_kernels.y : u_kernels.z);
   return hs_spreadSum(max(width, vec2(1.0)), side, hs_spreadBias());
 }
+#include "map/sub_light_taps.glsl"
 #include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

@@ -26,6 +26,7 @@ HS_HIGHP vec2 hs_penumbraWidth() {
 }
 
 float hs_filter(HS_HIGHP vec2 width) { return hs_pcfSpread(max(width, vec2(HS_NARROWEST))); }
+#include "map/sub_light_taps.glsl"
 #include "map/penumbra_main.glsl"
 #ifndef HS_FORWARD
 #ifdef HS_SHADED

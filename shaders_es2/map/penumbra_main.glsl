@@ -15,9 +15,14 @@ float hs_filterOf(HS_HIGHP vec2 width) {
   return hs_filter(width);
 }
 
-#ifdef HS_SUB_LIGHTS_U
-// HS_ONE_SEARCH: the whole light's penumbra in the map of the sub-light in its middle gives the width that each begins
-// with; what its own taps find then corrects it. A search in each would cost several times as much.
+#if defined(HS_ONE_SEARCH) && !defined(HS_SHORT)
+float hs_meanVisibility() {
+  hs_enterSubLight(float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V / 2));
+  HS_HIGHP vec2 width = hs_penumbraWidth();
+  return width.x < 0.0 ? hs_lightAbove() : hs_meanOverSubLights(width.x / hs_kernel.x);
+}
+#elif defined(HS_SUB_LIGHTS_U)
+// HS_ONE_SEARCH: as in sub_light_taps.glsl, for devices that have no room for that.
 float hs_correctedFilter(HS_HIGHP vec2 width) {
 #ifdef HS_ONE_SEARCH
   HS_HIGHP vec2 found = hs_searchTaps(width, float(HS_SPREAD_KERNEL));
