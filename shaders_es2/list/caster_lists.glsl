@@ -47,17 +47,17 @@ bool hs_among = false;  // some vertices may lie beside or behind the receiver
 // Of the light, the share that lies before the receiver's own facet; no more of it is seen. The lists alone let a receiver
 // that stands a step off its facet look past the facet's edge.
 HS_HIGHP float hs_beforeFacet = 1.0;
+HS_HIGHP float hs_facetSlack = 0.0;  // what differences of places may turn hs_facet by, which is no shadow
 #ifdef HS_HALF
 #define HS_LIGHT_PART vec4(0.0, float(HS_HALF) - 0.5, 2.0, 1.0)  // middle and sides of what is asked for
 #else
 #define HS_LIGHT_PART vec4(0.0, 0.0, 2.0, 2.0)
 #endif
 
-// `rounding`: of hs_facet, which is no shadow.
-HS_HIGHP float hs_shareBefore(HS_HIGHP vec3 rounding) {
+HS_HIGHP float hs_shareBefore() {
   HS_HIGHP vec3 size = abs(hs_facet);
   HS_HIGHP float unit = 1.0 / max(max(size.x, size.y), max(size.z, HS_SMALL));
-  HS_HIGHP float above = dot(hs_facet, vec3(HS_LIGHT_PART.xy, 1.0)) + dot(rounding, vec3(1.0));
+  HS_HIGHP float above = dot(hs_facet, vec3(HS_LIGHT_PART.xy, 1.0)) + hs_facetSlack;
   return hs_shareInside(unit * above, unit * HS_LIGHT_PART.zw * size.xy);
 }
 #endif
@@ -110,19 +110,13 @@ void hs_findList() {
   // A surface must not be cut by the silhouettes of its own edges. Planes stay planes in (t, i).
 #ifdef HS_PLANE
   HS_HIGHP vec3 n = HS_PLANE.xyz;
-#ifdef HS_LIMITED
-  HS_HIGHP vec3 rounding = HS_PLANE_ROUNDING * u_listPlace.w * abs(n);
-#ifdef HS_ON_SCREEN
-  rounding += hs_planeTurn;
-#endif
-#endif
   hs_receiver -= n * ((dot(n, hs_receiver) + HS_PLANE.w) / max(dot(n, n), HS_SMALL));
 #else
   HS_HIGHP vec3 alongX = dFdx(hs_receiver), alongY = dFdy(hs_receiver);
   HS_HIGHP vec3 n = cross(alongX, alongY);
 #ifdef HS_LIMITED
-  HS_HIGHP vec3 turn = abs(alongX) + abs(alongY), place = HS_PLANE_ROUNDING * u_listPlace.w * abs(hs_receiver);
-  HS_HIGHP vec3 rounding = place.yzx * turn.zxy + place.zxy * turn.yzx;
+  HS_HIGHP vec3 turn = abs(alongX) + abs(alongY), place = u_listPlace.w * abs(hs_receiver);
+  hs_facetSlack = dot(place.yzx * turn.zxy + place.zxy * turn.yzx, vec3(1.0));
 #endif
 #endif
   // Towards the eye: that side of the surface is seen.
@@ -135,7 +129,7 @@ void hs_findList() {
     hs_lit = 0.0;
   }
 #ifdef HS_LIMITED
-  if (!hs_outside) hs_beforeFacet = hs_shareBefore(rounding);
+  if (!hs_outside) hs_beforeFacet = hs_shareBefore();
 #endif
 #endif
 }

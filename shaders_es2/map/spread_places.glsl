@@ -60,20 +60,3 @@ void hs_nextPlaces(inout HS_Places places) {
   places.place.y -= step(places.wrap.x, places.place.y) * places.wrap.y;
 #endif
 }
-
-#ifndef HS_SHORT
-// The same from the rim inward.
-HS_Places hs_lastPlaces(HS_HIGHP float side) {
-  HS_Places places = hs_firstPlaces(side);
-  HS_HIGHP float steps = places.turns - 0.5;
-  HS_HIGHP vec2 place = places.place + steps * places.outward;
-  HS_HIGHP float low = places.wrap.x - places.wrap.y;
-  place.y -= floor((place.y - low) / places.wrap.y) * places.wrap.y;
-  places.place = place;
-  return places;
-}
-void hs_previousPlaces(inout HS_Places places) {
-  places.place -= places.outward;
-  places.place.y += step(places.place.y, places.wrap.x - places.wrap.y) * places.wrap.y;
-}
-#endif
