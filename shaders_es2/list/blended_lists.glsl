@@ -151,6 +151,13 @@ HS_HIGHP float hs_blendedOwn() {
 #if defined(HS_HALF) && HS_HALF == 1
   hs_lit = 1.0;  // the other half tells
 #endif
+#if defined(HS_LIMITED) && !defined(HS_HALF)
+  // Row by row, as the halves do.
+  HS_HIGHP vec2 rows = 0.5 - 0.25 * (all.share.xz + all.share.yw);
+  rows = min(rows, 0.5 * vec2(hs_shareBefore(hs_lightRow(0.0)), hs_shareBefore(hs_lightRow(1.0))));
+  return blended ? rows.x + rows.y : hs_limitedLight(hs_lit);
+#else
   return hs_limitedLight(blended ? 1.0 - dot(all.share, HS_Quads(0.25)) : hs_lit);
+#endif
 }
 #endif

@@ -49,16 +49,19 @@ bool hs_among = false;  // some vertices may lie beside or behind the receiver
 HS_HIGHP float hs_beforeFacet = 1.0;
 HS_HIGHP float hs_facetSlack = 0.0;  // what differences of places may turn hs_facet by, which is no shadow
 #ifdef HS_HALF
-#define HS_LIGHT_PART vec4(0.0, float(HS_HALF) - 0.5, 2.0, 1.0)  // middle and sides of what is asked for
+#define HS_LIGHT_PART hs_lightRow(float(HS_HALF))
 #else
 #define HS_LIGHT_PART vec4(0.0, 0.0, 2.0, 2.0)
 #endif
+// Middle and sides of the light's lower or upper half.
+HS_HIGHP vec4 hs_lightRow(HS_HIGHP float row) { return vec4(0.0, row - 0.5, 2.0, 1.0); }
 
-HS_HIGHP float hs_shareBefore() {
+// Of that part of the light.
+HS_HIGHP float hs_shareBefore(HS_HIGHP vec4 part) {
   HS_HIGHP vec3 size = abs(hs_facet);
   HS_HIGHP float unit = 1.0 / max(max(size.x, size.y), max(size.z, HS_SMALL));
-  HS_HIGHP float above = dot(hs_facet, vec3(HS_LIGHT_PART.xy, 1.0)) + hs_facetSlack;
-  return hs_shareInside(unit * above, unit * HS_LIGHT_PART.zw * size.xy);
+  HS_HIGHP float above = dot(hs_facet, vec3(part.xy, 1.0)) + hs_facetSlack;
+  return hs_shareInside(unit * above, unit * part.zw * size.xy);
 }
 #endif
 
@@ -129,7 +132,7 @@ void hs_findList() {
     hs_lit = 0.0;
   }
 #ifdef HS_LIMITED
-  if (!hs_outside) hs_beforeFacet = hs_shareBefore();
+  if (!hs_outside) hs_beforeFacet = hs_shareBefore(HS_LIGHT_PART);
 #endif
 #endif
 }
