@@ -16,7 +16,7 @@
 #include "map/penumbra_bounds.glsl"
 #include "map/occupancy_storage.glsl"
 #include "map/blocker_pyramid.glsl"
-#if defined(HS_CASTING_RECEIVER) || defined(HS_ONE_SEARCH) || defined(HS_SHORT)
+#if defined(HS_CASTING_RECEIVER) || defined(HS_SHORT)
 #include "map/blocker_search.glsl"
 #endif
 uniform HS_HIGHP vec4 u_bands;    // x: log2 of the narrowest band's width, y: bands per octave, z: last band
