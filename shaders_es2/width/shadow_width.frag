@@ -101,6 +101,7 @@ HS_HIGHP float hs_discOutside(HS_HIGHP float radius, HS_HIGHP vec2 widths) {
 #endif
 #if defined(HS_SUB_LIGHTS_U) && !defined(HS_CORNERS)
 #include "width/edge_profile.glsl"
+#include "width/part_order.glsl"
 #include "width/sub_light_widths.glsl"
 #else
 float hs_visibility() {
@@ -221,6 +222,9 @@ float halfshadow_visibility() {
 #ifdef HS_CLASSIFIED
   // What the mask knows was drawn before.
   return hs_meanVisibility();
+#elif defined(HS_CASTING_RECEIVER) && !defined(HS_CORNERS)
+  // Of casters, their own neighbours in the map, the mask knows little, and to ask it costs as much as half of the parts.
+  return hs_lightMisses ? hs_lightAbove() : hs_meanVisibility();
 #else
   float known = hs_maskClass();
   return known > -0.5 ? known * hs_lightAbove() : hs_meanVisibility();
