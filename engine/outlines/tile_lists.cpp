@@ -7,6 +7,7 @@
 #include <mutex>
 
 #include "outlines/casters_apart.hpp"
+#include "outlines/outline_detail.hpp"
 #include "outlines/reached_facets.hpp"
 #include "outlines/tree_calls.hpp"
 
@@ -170,7 +171,10 @@ void simplifyAll(const ListJob& job, const SubLightLoops& loops, const TangentBo
   const NearSurface* around = nullptr;
   const auto add = [&](const CasterLoops& caster) {
     const Coverage coverage = simplify(caster, loops.light, receivers, sides, scratch.simplify, simplified);
-    if (coverage == Coverage::partial) result.addPartial(simplified, around);
+    if (coverage == Coverage::partial) {
+      dropDetail(simplified, receivers, receiver.detail);
+      result.addPartial(simplified, around);
+    }
     result.full = result.full || coverage == Coverage::full;
   };
   const auto addNear = [&](const CasterLoops& caster, Solid solid) {

@@ -79,6 +79,7 @@ struct ListedReceiver {
   /// for the other's, fragments walk the surface's trees.
   std::size_t mostOwnFacets = ~std::size_t{0}, mostOthersFacets = ~std::size_t{0};
   std::size_t mostOthersRecords = ~std::size_t{0};
+  double detail = 0.0;  ///< of outlines: `mostShare` of dropDetail()
 };
 
 /// `subLights`: one for each quarter of the light, or one for all of it. `surfaces`: of the casters they are

@@ -8,6 +8,7 @@
 #include <random>
 
 #include "coverage/trapezoid.hpp"
+#include "outlines/outline_detail.hpp"
 #include "outlines/tile_lists.hpp"
 #include "scenes/builtin_scenes.hpp"
 
@@ -100,6 +101,63 @@ TEST(CellLoops, SimplifiedLoopsCoverTheSameCells) {
   EXPECT_GT(partial, 5000);
   EXPECT_LT(after, before / 2 * 2) << "simplification must shorten lists";
   std::printf("none %d, full %d, partial %d; vertices %zu -> %zu\n", dropped, full, partial, before, after);
+}
+
+TEST(OutlineDetail, WhatIsLeftOutChangesNoMoreOfTheLightThanWasAsked) {
+  std::mt19937 random(19);
+  std::uniform_real_distribution<float> unit(0.0f, 1.0f);
+  constexpr double kShare = 0.002;
+  double largest = 0.0, squares = 0.0;
+  int seen = 0;
+  std::size_t before = 0, after = 0;
+  for (int trial = 0; trial < 4000; ++trial) {
+    const float gap = 0.05f + unit(random);
+    outlines::TangentBox box;
+    box.tLow = glm::vec2(unit(random), unit(random)) - 0.5f;
+    box.tHigh = box.tLow + 0.05f * glm::vec2(unit(random), unit(random));
+    box.iLow = 1.0f;
+    box.iHigh = 1.0f + 0.05f * unit(random);
+    // Smooth and toothed outlines, about as large as the light and some times larger or smaller.
+    const int count = 8 << (trial % 6);
+    const float radius = gap * std::exp2(4.0f * unit(random) - 2.0f),
+                teeth = trial % 3 == 0 ? 0.0f : 0.2f * unit(random);
+    std::vector<glm::vec3> loop;
+    const glm::vec2 center =
+        glm::vec2(unit(random), unit(random)) - 0.5f + radius * (2.0f * unit(random) - 1.0f);
+    for (int k = 0; k < count; ++k) {
+      const float angle = 6.2831853f * static_cast<float>(k) / static_cast<float>(count);
+      const float r = radius * (1.0f + teeth * (unit(random) - 0.5f));
+      loop.emplace_back(center.x + r * std::cos(angle), center.y + r * std::sin(angle),
+                        box.iHigh + gap * (1.0f + 0.3f * teeth * unit(random)));
+    }
+    outlines::CasterLoops whole;
+    whole.addLoop(loop);
+    outlines::CasterLoops fewer = whole;
+    dropDetail(fewer, box, 0.0);
+    ASSERT_EQ(fewer.points, whole.points);
+    dropDetail(fewer, box, kShare);
+    before += whole.points.size();
+    after += fewer.points.size();
+    for (int k = 0; k < 8; ++k) {
+      const glm::dvec3 receiver(glm::mix(box.tLow.x, box.tHigh.x, unit(random)),
+                                glm::mix(box.tLow.y, box.tHigh.y, unit(random)),
+                                glm::mix(box.iLow, box.iHigh, unit(random)));
+      const auto expected = cellsOf(whole, outlines::kWholeLight, receiver);
+      const auto actual = cellsOf(fewer, outlines::kWholeLight, receiver);
+      double change = 0.0;
+      for (std::size_t cell = 0; cell < 4; ++cell) change += 0.25 * (actual[cell] - expected[cell]);
+      largest = std::max(largest, std::abs(change));
+      squares += change * change;
+      ++seen;
+    }
+  }
+  // The light's sides cut what lies at the ends of a stretch, a quarter of the share each at most.
+  EXPECT_LE(largest, 1.5 * kShare);
+  EXPECT_GT(largest, 0.2 * kShare) << "nothing was left out";
+  EXPECT_LE(std::sqrt(squares / seen), 0.5 * kShare);
+  EXPECT_LT(after, before * 6 / 10);
+  std::printf("vertices %zu -> %zu; largest change %.5f, rms %.5f\n", before, after, largest,
+              std::sqrt(squares / seen));
 }
 
 TEST(TileLists, CastersThatAreApartCoverNoPointTwice) {

@@ -106,6 +106,14 @@ std::vector<SettingInfo> commonSettings() {
        {},
        "triangles of casters that are not convex, in all, up to which wedges follow their outlines; where "
        "there are more pcss-mip takes the light, since a frame would take seconds"},
+      {"outline_detail",
+       SettingType::real,
+       "0.002",
+       0,
+       0.1,
+       {},
+       "share of a light by which outlines may be off where receivers stand: vertices that matter less are "
+       "left out of the lists of wedges-cells and wedges-blended; 0 keeps all"},
       {"list_walk",
        SettingType::choice,
        "auto",

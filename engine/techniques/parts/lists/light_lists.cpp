@@ -225,7 +225,8 @@ Status LightLists::update(const LightScene& scene, PassPlan& plan, LightLoops& l
         cached.seenFromBehind = seenFromBehind;
         cached.doublings = doublings;
         cached.casts = item.casts;
-        outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item)};
+        outlines::ListedReceiver receiver{.ownObject = placedCasterOf(scene, item),
+                                          .detail = scene.settings.real("outline_detail")};
         if (highp) {
           receiver.mostOwnFacets = kMostOwnFacets;
           receiver.mostOthersFacets = kMostOthersFacets;
