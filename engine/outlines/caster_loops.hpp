@@ -35,7 +35,7 @@ struct CasterLoops {
   /// Bounds of its whole part, not only of its loops: where they lie beyond one side of the light for some
   /// receivers, it covers nothing for them, and none of them is inside it.
   glm::vec3 partLow{-1e30f}, partHigh{1e30f};
-  float deepest = 0.0f;        ///< no point of its part has a smaller i; the loops of a bowl do not tell
+  float deepest = 0.0f;        ///< as scene::LightSilhouettes::Caster::deepest, the smallest i
   bool enclosesLight = false;  ///< and no receiver that is seen stands inside it
   bool isRoom = false;         ///< it encloses the light, and receivers stand inside it: only faces tell
   bool seenInside = false;     ///< it does not, but receivers may stand inside it all the same

@@ -145,7 +145,8 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
       side == SheetSide::towards || (surface.closed && choice == FacetChoice::asLightSees);
   for (const std::uint32_t f : candidates) {
     const FacetLight& seen = lights[f];
-    if (seen.sees ? side == SheetSide::away : towardsOnly) continue;
+    const bool byReceivers = surface.closed && (choice == FacetChoice::asReceiversSee || seen.side == 0);
+    if (seen.sees ? side == SheetSide::away : towardsOnly && !byReceivers) continue;
     const NearSurface::Facet& facet = surface.facets[f];
     if (!isInReach(facet.low, facet.high, sides, receivers.box)) continue;
     const auto& v = facet.vertex;
@@ -157,7 +158,7 @@ void facetsThatMatter(const NearSurface& surface, std::span<const std::uint32_t>
     if (receiverSide == kOwnFacet) continue;
     // No ray passes a plane that has both its ends on one side.
     if (seen.side * receiverSide > 0) continue;
-    if (surface.closed && choice == FacetChoice::asReceiversSee && receiverSide > 0) continue;
+    if (byReceivers && receiverSide > 0) continue;
     result.push_back(f);
   }
 }

@@ -13,7 +13,9 @@ namespace halfshadow::outlines {
 /// Which facets stand for the caster. Of a closed surface every ray from a receiver to the light leaves as
 /// often as it enters: those through which rays leave cover everything once.
 enum class FacetChoice {
-  asLightSees,     ///< those that look at the sub-light's centre, as its silhouettes have it
+  /// Those that look at the sub-light, as its silhouettes have it. Of a closed surface's that look at some of
+  /// it alone, those that receivers are behind of.
+  asLightSees,
   asReceiversSee,  ///< those that receivers are behind of: exact for every point of the light
 };
 

@@ -61,9 +61,11 @@ enum Role : std::uint8_t { kAbsent, kJoined, kJoinedTurned, kAmong, kAmongTurned
 Role roleOf(const NearSurface& surface, std::uint32_t f, const SubLight& light, const ReceiverSet& receivers,
             FacetChoice choice) {
   const NearSurface::Facet& facet = surface.facets[f];
-  const int side = choice == FacetChoice::asReceiversSee ? sideOfReceivers(surface, f, receivers)
-                   : sees(facet, light)                  ? -1
-                                                         : 1;
+  // Of a light that lies on both sides of a facet some points see it from behind, where it is what rays enter
+  // by.
+  const bool byReceivers =
+      choice == FacetChoice::asReceiversSee || (surface.closed && lightSideOf(facet, light) == 0);
+  const int side = byReceivers ? sideOfReceivers(surface, f, receivers) : sees(facet, light) ? -1 : 1;
   if (side == 0) return kOneSided;
   const bool among = !surface.convex && facet.low.z < receivers.box.iHigh;
   return side < 0 ? (among ? kAmong : kJoined) : (among ? kAmongTurned : kJoinedTurned);

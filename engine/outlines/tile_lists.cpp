@@ -337,7 +337,7 @@ TileList tileList(const ListJob& job, const ReceiverSet& set, ListScratch& scrat
   list.casters = static_cast<std::uint8_t>(std::min<std::size_t>(list.casters + treed, 255));
   list.count = static_cast<std::uint32_t>(records.size()) - list.first;
   list.amongReceivers = std::ranges::any_of(std::span(records).subspan(list.first), [&](const auto& record) {
-    return record.behindFacet == ListRecord::kTree ||
+    return record.behindFacet == ListRecord::kTree || record.oneSided ||
            (record.behindFacet == ListRecord::kVertex && record.ti.z < receivers.iHigh);
   });
   list.apart = edges == ListedEdges::all && list.count > 0 && !list.amongReceivers &&

@@ -45,7 +45,8 @@ struct TileList {
   bool leadsIntoTrees = false;
   /// Of whole loops: no receiver of the tile sees two of its casters before the same point of the light.
   bool apart = false;
-  /// Some vertices may lie beside or behind a receiver of the tile, so that edges must be cut.
+  /// Some vertices may lie beside or behind a receiver of the tile, so that edges must be cut, or some loops
+  /// are one-sided: only the walk that cuts knows those.
   bool amongReceivers = false;
 };
 

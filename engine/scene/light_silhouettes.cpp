@@ -92,7 +92,7 @@ void appendCaster(const PlacedCaster& caster, const Silhouette& silhouette, cons
     }
     placed.loopCount = static_cast<std::uint32_t>(result.loops.size()) - placed.firstLoop;
     placed.deepest = placed.high.z;
-    if (!placed.closed || placed.enclosesLight)
+    if (!placed.closed || placed.enclosesLight || !caster.mesh->parts()[part.part].convex)
       placed.deepest = std::max(placed.deepest, deepest.of(part.part));
     if (placed.loopCount > 0 || placed.enclosesLight) result.casters.push_back(placed);
   }

@@ -53,8 +53,9 @@ struct LightSilhouettes {
     bool layersBefore = false;
     glm::vec3 low{0.0f}, high{0.0f};  ///< bounds of its loops in (a, b, h)
     Bounds partWorld;                 ///< of its part's surface
-    /// No point of its part is farther from the light: the inside of a bowl is, than the loops. Receivers
-    /// behind this are behind all of it.
+    /// No point of its part is farther from the light: the inside of a bowl is, than the loops, and the foot
+    /// of a wall. Receivers behind this are behind all of it. Of convex parts that of their loops, which tell
+    /// what they cover wherever they are cut.
     float deepest = 0.0f;
     /// Else one side of a sheet: the faces that look towards the light and those that look away are two
     /// entries, so that one entry covers nothing twice unless the surface itself folds.

@@ -200,6 +200,20 @@ glm::dvec2 behindCorner(const scene::LightPlane& plane, const glm::dvec3& normal
   return foot + kReach * (corner == 0 ? along : corner == 1 ? inward : -along);
 }
 
+/// Of four sub-lights' cells: those that are covered wholly have no records.
+double coveredShare(const outlines::TileList& list, std::span<const outlines::ListRecord> records,
+                    const std::array<CoveredCells, 4>& covered) {
+  std::array<bool, 4> listed{};
+  for (const outlines::ListRecord& record : records) {
+    if (record.behindFacet != outlines::ListRecord::kTree) listed[record.subLight] = true;
+  }
+  double share = 4 - std::popcount(list.litSubLights) - std::count(listed.begin(), listed.end(), true);
+  for (const auto& cells : covered) {
+    for (const double cell : cells) share += 0.25 * std::clamp(cell, 0.0, 1.0);
+  }
+  return 0.25 * share;
+}
+
 /// A surface's lists for its own tiles, and all that they refer to.
 struct OwnLists {
   scene::TriangleMesh mesh;
@@ -216,7 +230,8 @@ struct OwnLists {
 
 std::unique_ptr<OwnLists> ownLists(const scene::TriangleMesh& shape, double lightHalf,
                                    std::span<const outlines::SubLight> lights, Origin origin, Surface surface,
-                                   std::size_t mostOwnFacets, const Workers& workers = {}) {
+                                   std::size_t mostOwnFacets, const Workers& workers = {},
+                                   double tilt = 0.0) {
   auto own = std::make_unique<OwnLists>();
   const auto built = scene::buildMesh({.positions = &shape.positions.front().x,
                                        .vertexCount = static_cast<std::uint32_t>(shape.positions.size()),
@@ -226,7 +241,8 @@ std::unique_ptr<OwnLists> ownLists(const scene::TriangleMesh& shape, double ligh
   own->mesh = *built;
   own->halfEdges = scene::HalfEdgeMesh::build(own->mesh);
   own->caster = {.mesh = &own->halfEdges};
-  const auto area = scene::areaLightFromVectors({1.0, 5.0, 0.5}, {lightHalf, 0, 0}, {0, 0, lightHalf});
+  const glm::dvec3 halfU(lightHalf * std::cos(tilt), -lightHalf * std::sin(tilt), 0.0);
+  const auto area = scene::areaLightFromVectors({1.0, 5.0, 0.5}, halfU, {0, 0, lightHalf});
   EXPECT_TRUE(area.ok());
   own->area = *area;
   own->plane = scene::LightPlane(own->area, 8.0, 1e-4);
@@ -332,7 +348,7 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     }
     const std::vector<outlines::ListRecord> met = withTrees(records, lists.trees, kQuarters, lifted);
     const auto covered = walk(met, kQuarters, lifted);
-    double expected = 0.0, actual = 0.0;
+    double expected = 0.0;
     constexpr int kSide = 16;
     for (int k = 0; k < kSide * kSide; ++k) {
       const double x = 2.0 * (k % kSide + unit(random)) / kSide - 1.0;
@@ -341,17 +357,82 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
       expected += std::min(exits(mesh, surface, receiver, plane.toWorld({x, y, 0.0})), 1);
     }
     expected /= kSide * kSide;
-    // Sub-lights that are covered wholly have no records.
-    const int full = 4 - std::popcount(list.litSubLights);
-    std::array<bool, 4> listed{};
-    for (const outlines::ListRecord& record : records) {
-      if (record.behindFacet != outlines::ListRecord::kTree) listed[record.subLight] = true;
+    const double actual = coveredShare(list, records, covered);
+    ++result.receivers;
+    result.penumbra += expected > 0.01 && expected < 0.99;
+    result.largest = std::max(result.largest, std::abs(actual - expected));
+    result.square += (actual - expected) * (actual - expected);
+  }
+  return result;
+}
+
+scene::TriangleMesh angleIron(float turn) {
+  scene::TriangleMesh mesh;
+  constexpr std::array<glm::vec2, 6> kOutline{
+      {{-0.6f, -0.6f}, {0.6f, -0.6f}, {0.6f, -0.2f}, {-0.2f, -0.2f}, {-0.2f, 0.6f}, {-0.6f, 0.6f}}};
+  for (const float y : {0.0f, 1.2f}) {
+    for (const glm::vec2& p : kOutline) {
+      mesh.positions.emplace_back(std::cos(turn) * p.x - std::sin(turn) * p.y, y,
+                                  std::sin(turn) * p.x + std::cos(turn) * p.y);
     }
-    actual += full - static_cast<int>(std::count(listed.begin(), listed.end(), true));
-    for (const auto& cells : covered) {
-      for (const double cell : cells) actual += 0.25 * std::clamp(cell, 0.0, 1.0);
+  }
+  for (std::uint32_t k = 0; k < 6; ++k) {
+    const std::uint32_t next = (k + 1) % 6;
+    mesh.indices.insert(mesh.indices.end(), {k, k + 6, next, next, k + 6, next + 6});
+  }
+  for (const auto& [a, b, c] : {std::array{0u, 1u, 2u}, {0u, 2u, 3u}, {0u, 3u, 4u}, {0u, 4u, 5u}}) {
+    mesh.indices.insert(mesh.indices.end(), {a, b, c, a + 6, c + 6, b + 6});
+  }
+  return mesh;
+}
+
+Deviation deviationAtFoot(const scene::TriangleMesh& shape, double lightHalf, unsigned seed,
+                          std::span<const outlines::SubLight> lights) {
+  constexpr float kGap = 0.002f;
+  // Tilted, so that no receiver lies behind all of the caster.
+  constexpr double kTilt = 0.5;
+  const auto own =
+      ownLists(shape, lightHalf, lights, Origin::caster, Surface::closed, ~std::size_t{0}, {}, kTilt);
+  const auto& [mesh, halfEdges, caster, area, plane, space, loops, surfaces, none, unused] = *own;
+  scene::TriangleMesh ground;
+  for (const float x : {-3.0f, 3.0f}) {
+    for (const float z : {-3.0f, 3.0f}) ground.positions.emplace_back(x, -kGap, z);
+  }
+  ground.indices = {0, 1, 2, 1, 3, 2};
+  const outlines::ReceiverTiles tiles =
+      receiverTiles({.mesh = &ground}, space, shadowedTangents(loops, -10.0), 0.05, 64, 1e-3);
+  const outlines::TileLists lists = tileLists(loops, own->surfaces, tiles, {}, outlines::ListedEdges::all);
+  Deviation result{.longest = lists.longestList};
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  for (int trial = 0; trial < 1500; ++trial) {
+    // Near its walls, and on either side of them.
+    const std::size_t corner = static_cast<std::size_t>(trial % 6);
+    const glm::dvec3 from(mesh.positions[corner]), to(mesh.positions[(corner + 1) % 6]);
+    const glm::dvec3 along = glm::normalize(to - from);
+    const double away = 0.2 * std::pow(10.0, -3.0 * unit(random));
+    const glm::dvec3 world = glm::mix(from, to, unit(random)) + away * glm::dvec3(along.z, 0.0, -along.x) -
+                             glm::dvec3(0.0, kGap, 0.0);
+    const glm::dvec3 receiver = space.tangentPoint(plane.fromWorld(world));
+    const glm::ivec2 tile(glm::floor((glm::dvec2(receiver) - tiles.low) / tiles.tileSize));
+    if (tile.x < 0 || tile.y < 0 || tile.x >= tiles.columns || tile.y >= tiles.rows) continue;
+    const outlines::TileList& list = lists.tiles[static_cast<std::size_t>(tile.y * tiles.columns + tile.x)];
+    // Behind all of it its outline from the middle of each part of the light stands for it.
+    if (!list.amongReceivers) continue;
+    const auto records = std::span(lists.records).subspan(list.first, list.count);
+    // Layers that cover the same point of the light are summed up within a cell, and no more than cover it.
+    std::array<double, 16> cells{};
+    constexpr int kSide = 24, kPerCell = kSide / 4;
+    for (int k = 0; k < kSide * kSide; ++k) {
+      const int column = k % kSide, row = k / kSide;
+      const double x = 2.0 * (column + unit(random)) / kSide - 1.0,
+                   y = 2.0 * (row + unit(random)) / kSide - 1.0;
+      cells[static_cast<std::size_t>(row / kPerCell * 4 + column / kPerCell)] +=
+          exits(mesh, Surface::closed, world, plane.toWorld({x, y, 0.0})) / double(kPerCell * kPerCell);
     }
-    actual *= 0.25;
+    double expected = 0.0;
+    for (const double cell : cells) expected += std::min(cell, 1.0) / 16.0;
+    const double actual = coveredShare(list, records, walk(records, lights, receiver));
     ++result.receivers;
     result.penumbra += expected > 0.01 && expected < 0.99;
     result.largest = std::max(result.largest, std::abs(actual - expected));

@@ -47,4 +47,12 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
                     Origin origin = Origin::light, Surface surface = Surface::closed,
                     std::size_t mostOwnFacets = ~std::size_t{0});
 
+/// Two walls on y = 0 that meet at a right angle, turned about y: closed, not convex.
+scene::TriangleMesh angleIron(float turn);
+
+/// The same for a ground that the surface all but stands on, at places near its walls' feet that are not
+/// behind all of it.
+Deviation deviationAtFoot(const scene::TriangleMesh& shape, double lightHalf, unsigned seed,
+                          std::span<const outlines::SubLight> lights);
+
 }  // namespace halfshadow::test

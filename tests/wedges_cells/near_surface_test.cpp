@@ -38,6 +38,23 @@ TEST(NearSurface, FacesCoverWhatRaysDoNotPass) {
   }
 }
 
+// Where the light stands over a wall, on both sides of its plane, rays to some of it enter the caster by the
+// wall that others leave it by: what enters is not to be taken from what leaves.
+TEST(NearSurface, WallsUnderTheLightHideWhatIsBehindThem) {
+  for (unsigned seed = 1; seed <= 8; ++seed) {
+    const Deviation foot =
+        deviationAtFoot(angleIron(0.7f * static_cast<float>(seed)), 1.5, seed, outlines::subLights());
+    const double rmse = std::sqrt(foot.square / std::max(foot.receivers, 1));
+    std::printf("%d receivers, %d in penumbra, rmse %.4f, largest %.3f\n", foot.receivers, foot.penumbra,
+                rmse, foot.largest);
+    EXPECT_GT(foot.receivers, 1000);
+    EXPECT_GT(foot.penumbra, 300);
+    // 36 rays a cell, stratified: .003.
+    EXPECT_LE(rmse, 0.006) << seed;
+    EXPECT_LE(foot.largest, 0.03) << seed;
+  }
+}
+
 TEST(NearSurface, OpenSheetsHideFromBothSides) {
   for (const double half : {1.0}) {
     const Deviation bent = deviation(bentSheet(24), half, 3, Origin::caster, Surface::open);

@@ -30,7 +30,9 @@ class ShadowWidth final : public Technique {
             "receiver, or one a sub-light",
         .guarantees =
             "two fetches per receiver whatever the scene, the light's size and the penumbra's width; of a "
-            "split light two for lit and umbra receivers, one more a sub-light for others, two for casters",
+            "split light two for lit and umbra receivers, at most one more a sub-light for others, at most "
+            "two a "
+            "sub-light for casters",
         .knownFailures =
             "casters seen through each other are one silhouette; a caster's shadow on itself is soft only "
             "where it leaves the silhouette; lights "
