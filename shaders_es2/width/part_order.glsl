@@ -13,16 +13,22 @@
 #define HS_ALL_DARK 0.004
 #define HS_ALL_LIT (float(HS_TELLING_PARTS) - 0.004)
 
-// Column and row, from 0, of the part that is asked at a turn, from 0.
-HS_HIGHP vec2 hs_partAt(HS_HIGHP float turn) {
-  // Along rows, two fields at a time; in rows of even length every second row begins with the other colour.
-  HS_HIGHP float second = step(float((HS_PARTS + 1) / 2) - 0.5, turn);
-  HS_HIGHP float field = 2.0 * (turn - second * float((HS_PARTS + 1) / 2)) + second;
-  HS_HIGHP float row = floor((field + 0.5) * (1.0 / float(HS_SUB_LIGHTS_U)));
-  HS_HIGHP float column = field - row * float(HS_SUB_LIGHTS_U);
+// Column and row, from 0, of the part that is asked after `part`; the first is in the corner. turn: how many were asked. Along
+// rows, two fields at a time; in rows of even length every second row begins with the other colour.
+HS_HIGHP vec2 hs_partAfter(HS_HIGHP vec2 part, HS_HIGHP float turn) {
+  const HS_HIGHP float columns = float(HS_SUB_LIGHTS_U), whites = float((HS_PARTS + 1) / 2);
+  part.x += 2.0;
+  HS_HIGHP float over = step(columns - 0.5, part.x);
 #if HS_SUB_LIGHTS_U == 2 || HS_SUB_LIGHTS_U == 4
-  HS_HIGHP float odd = row - 2.0 * floor(0.5 * row);
-  column += odd * (1.0 - 2.0 * second);
+  part += over * vec2(1.0 + columns - 2.0 * part.x, 1.0);
+#elif HS_SUB_LIGHTS_U == 1
+  part = vec2(0.0, part.y + 2.0);
+#else
+  part += over * vec2(-columns, 1.0);
 #endif
-  return vec2(column, row);
+#if HS_SUB_LIGHTS_U == 1
+  return turn == whites ? vec2(0.0, 1.0) : part;
+#else
+  return turn == whites ? vec2(1.0, 0.0) : part;
+#endif
 }

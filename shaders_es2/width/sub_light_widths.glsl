@@ -64,11 +64,11 @@ float hs_meanOfWidths() {
   float seen = 0.0;
   float all = 0.0;
   HS_HIGHP float turn = 0.0;
-  // An end that compilers do not know, here and below: nine turns in a row are more than many devices have room for.
+  HS_HIGHP vec2 part = vec2(0.0);
+  // An end that compilers do not know: nine turns in a row are more than many devices have room for.
   HS_HIGHP float end = float(HS_PARTS) - 0.5 + min(u_map.x, 0.0);
   for (int i = 0; i < HS_MORE_THAN_UNROLLED; ++i) {
     if (turn > end) break;
-    HS_HIGHP vec2 part = hs_partAt(turn);
     hs_enterSubLight(part.x + part.y * float(HS_SUB_LIGHTS_U));
     float above = hs_subLightAbove();
     all += above;
@@ -78,6 +78,7 @@ float hs_meanOfWidths() {
       seen += above;
     }
     turn += 1.0;
+    part = hs_partAfter(part, turn);
     bool agreed = all < HS_ALL_DARK || (seen > HS_ALL_LIT && (lit < HS_ALL_DARK || lit > HS_ALL_LIT));
     if (agreed && turn == float(HS_TELLING_PARTS)) {
       all *= float(HS_PARTS) / float(HS_TELLING_PARTS);
@@ -93,37 +94,39 @@ float hs_meanOfWidths() {
 #endif
 uniform HS_HIGHP vec4 u_widthSteps;  // of the atlas per unit of depth between neighbours, xy along u, zw along v
 uniform HS_HIGHP vec4 u_widthFirst;  // of the atlas: xy: per depth texel, zw: margin of the first map
+// Places in the atlas are counted on from one sub-light to the next.
 float hs_meanOfWidths() {
   HS_HIGHP vec4 steps = u_widthSteps * (hs_receiverValue - u_subLights.x);
-  HS_HIGHP vec2 first = hs_texel * u_widthFirst.xy + u_widthFirst.zw - 0.5 * float(HS_SUB_LIGHTS_U - 1) * steps.xy -
-                        0.5 * float(HS_SUB_LIGHTS_V - 1) * steps.zw;
-  float lit = 0.0;
-  HS_HIGHP float turn = 0.0;
-  HS_HIGHP float end = float(HS_PARTS) - 0.5 + min(u_map.x, 0.0);
-  for (int i = 0; i < HS_MORE_THAN_UNROLLED; ++i) {
-    if (turn > end) break;
-    HS_HIGHP vec2 part = hs_partAt(turn);
-#ifdef HS_ROWS_ALIKE
-    HS_HIGHP vec2 tileOfAtlas = part;
-#else
-    HS_HIGHP float index = part.x + part.y * float(HS_SUB_LIGHTS_U);
-    HS_HIGHP float row = floor((index + 0.5) / u_subLights.w);
-    HS_HIGHP vec2 tileOfAtlas = vec2(index - row * u_subLights.w, row);
+  HS_HIGHP vec2 uv = hs_texel * u_widthFirst.xy + u_widthFirst.zw - 0.5 * float(HS_SUB_LIGHTS_U - 1) * steps.xy -
+                     0.5 * float(HS_SUB_LIGHTS_V - 1) * steps.zw;
+  HS_HIGHP vec2 nextRow = steps.zw - float(HS_SUB_LIGHTS_U) * steps.xy;
+  HS_HIGHP vec2 corner = vec2(0.0);
+#ifndef HS_ROWS_ALIKE
+  HS_HIGHP float column = 0.0;
 #endif
+  float lit = 0.0;
+  // An end that compilers do not know: nine turns in a row are more than many devices have room for.
+  HS_HIGHP float left = float(HS_SUB_LIGHTS_U * HS_SUB_LIGHTS_V) - 0.5 + min(u_map.x, 0.0);
+  for (int i = 0; i < HS_MORE_THAN_UNROLLED; ++i) {
+    if (left < 0.0) break;
     // What is the same in all turns and costs little is found in each, from uniforms that are not read before: registers
     // are few.
     HS_HIGHP vec2 tile = u_widthTile.xy * u_widthLayout.zw;
     HS_HIGHP vec2 low = 0.5 * u_widthLayout.zw;
-    HS_HIGHP vec2 uv = first + part.x * steps.xy + part.y * steps.zw;
-    HS_HIGHP vec4 stored = texture2D(u_widthMap, tileOfAtlas * tile + clamp(uv, low, tile - low));
+    HS_HIGHP vec4 stored = texture2D(u_widthMap, corner + clamp(uv, low, tile - low));
     HS_COUNT(1);
     HS_HIGHP vec2 widths = hs_widestKernels() - u_kernel.y * stored.b;
     lit += hs_litByEdge(stored, widths.x, hs_cornerWeight(widths), -1.0);
-    turn += 1.0;
-    if (turn == float(HS_TELLING_PARTS) && (lit < HS_ALL_DARK || lit > HS_ALL_LIT)) {
-      lit *= float(HS_PARTS) / float(HS_TELLING_PARTS);
-      break;
-    }
+    left -= 1.0;
+    corner.x += tile.x;
+    HS_HIGHP float ends = step(1.0 - low.x, corner.x);
+    corner += ends * vec2(-1.0, tile.y);
+#ifndef HS_ROWS_ALIKE
+    column += 1.0;
+    ends = step(float(HS_SUB_LIGHTS_U) - 0.5, column);
+    column -= ends * float(HS_SUB_LIGHTS_U);
+#endif
+    uv += steps.xy + ends * nextRow;
   }
   return lit;
 }
