@@ -214,6 +214,13 @@ double coveredShare(const outlines::TileList& list, std::span<const outlines::Li
   return 0.25 * share;
 }
 
+void count(Deviation& result, double expected, double actual) {
+  ++result.receivers;
+  result.penumbra += expected > 0.01 && expected < 0.99;
+  result.largest = std::max(result.largest, std::abs(actual - expected));
+  result.square += (actual - expected) * (actual - expected);
+}
+
 /// A surface's lists for its own tiles, and all that they refer to.
 struct OwnLists {
   scene::TriangleMesh mesh;
@@ -358,10 +365,7 @@ Deviation deviation(const scene::TriangleMesh& shape, double lightHalf, unsigned
     }
     expected /= kSide * kSide;
     const double actual = coveredShare(list, records, covered);
-    ++result.receivers;
-    result.penumbra += expected > 0.01 && expected < 0.99;
-    result.largest = std::max(result.largest, std::abs(actual - expected));
-    result.square += (actual - expected) * (actual - expected);
+    count(result, expected, actual);
   }
   return result;
 }
@@ -433,10 +437,7 @@ Deviation deviationAtFoot(const scene::TriangleMesh& shape, double lightHalf, un
     double expected = 0.0;
     for (const double cell : cells) expected += std::min(cell, 1.0) / 16.0;
     const double actual = coveredShare(list, records, walk(records, lights, receiver));
-    ++result.receivers;
-    result.penumbra += expected > 0.01 && expected < 0.99;
-    result.largest = std::max(result.largest, std::abs(actual - expected));
-    result.square += (actual - expected) * (actual - expected);
+    count(result, expected, actual);
   }
   return result;
 }
